@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import logging
 import os
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -43,3 +44,20 @@ def logging_to(path: str | Path) -> Iterator[None]:
         finally:
             sys.stdout.flush()
             sys.stderr.flush()
+
+
+def summary(lines: Sequence[str], folder: Path = Path("logs")) -> str:
+    """Tell where the results are and how long each job of each line took."""
+    rows = [
+        f"  {seconds:7.1f} s  {line}/{stage}"
+        for line in lines
+        for stage, seconds in _durations(folder / line)
+    ]
+    return "\n".join(["tramdva: results/ and paper_figures/ are complete.", *rows])
+
+
+def _durations(folder: Path) -> Iterator[tuple[str, float]]:
+    for path in sorted(folder.glob("*.tsv"), key=lambda path: path.stat().st_mtime_ns):
+        with path.open(encoding="utf-8") as table:
+            for row in csv.DictReader(table, delimiter="\t"):
+                yield path.stem, float(row["s"])
