@@ -16,7 +16,9 @@ OWN_CONFIG = Path("config/config.yaml").is_file()
 
 settings = workflow.config_settings
 configuration = load_or_exit(
-    Path("config") if OWN_CONFIG else ROOT / "config", settings.configfiles, settings.config
+    Path("config") if OWN_CONFIG else ROOT / "config",
+    settings.configfiles,
+    settings.config,
 )
 LINES = configuration.run.lines
 values = partial(stage, configuration)
@@ -31,7 +33,9 @@ wildcard_constraints:
 
 
 onstart:
-    print(f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/")
+    print(
+        f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
+    )
 
 
 onsuccess:
@@ -40,6 +44,7 @@ onsuccess:
 
 onerror:
     print("tramdva: not all results are complete; logs/<line>/<stage>.log says why.")
+
 
 STAGES = [
     "stability_map",
