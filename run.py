@@ -138,10 +138,12 @@ def install_with_uv() -> None:
         only_uv = Path(folder) / "uv.txt"
         only_uv.write_text(locked("uv", LOCK.read_text()))
         pip("install", "--require-hashes", "--no-deps", "-r", str(only_uv))
-    environment = index_of_pip() | {"VIRTUAL_ENV": str(VENV), "UV_NO_PROGRESS": "1"}
+    environment = index_of_pip() | {"VIRTUAL_ENV": str(VENV)}
     uv = [str(BIN / "uv"), "--quiet", "pip"]
     run([*uv, "sync", "--require-hashes", "--compile-bytecode", str(LOCK)], **environment)
-    run([*uv, "install", "--offline", "--no-deps", "--no-build-isolation", "-e", "."], **environment)
+    run(
+        [*uv, "install", "--offline", "--no-deps", "--no-build-isolation", "-e", "."], **environment
+    )
 
 
 def install_with_pip() -> None:

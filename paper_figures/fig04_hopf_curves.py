@@ -9,7 +9,9 @@ from tramdva import job, results
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 
 
-def main(*, pdf: str, png: str, code: str, cfg: dict, hopf_curves: str, critical_hopf_curve: str) -> None:
+def main(
+    *, pdf: str, png: str, code: str, cfg: dict, hopf_curves: str, critical_hopf_curve: str
+) -> None:
     """Draw figure 4."""
     plt.style.use(STYLE)
     figure, axes = plt.subplots()

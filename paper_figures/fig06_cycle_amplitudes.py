@@ -9,7 +9,9 @@ from tramdva import job, results
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 
 
-def main(*, pdf: str, png: str, code: str, cfg: dict, critical_hopf_curve: str, cycle_amplitudes: str) -> None:
+def main(
+    *, pdf: str, png: str, code: str, cfg: dict, critical_hopf_curve: str, cycle_amplitudes: str
+) -> None:
     """Draw figure 6."""
     plt.style.use(STYLE)
     figure, axes = plt.subplots()

@@ -1,6 +1,8 @@
 """Table 2: designs of the absorber side by side."""
 
 import csv
+import io
+from pathlib import Path
 
 from tramdva import job, results
 
@@ -19,12 +21,13 @@ COLUMNS = {
 def main(*, output: str, code: str, absorber_tuning: str) -> None:
     """Write the designs as a table, a row each."""
     designs = results.read(absorber_tuning)
-    with open(output, "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["design", *COLUMNS.values(), "status"])
-        for row, design in enumerate(designs["design"]):
-            numbers = [f"{designs[name][row]:.6g}" for name in COLUMNS]
-            table.writerow([design, *numbers, designs["status"][row]])
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["design", *COLUMNS.values(), "status"])
+    for row, design in enumerate(designs["design"]):
+        numbers = [f"{designs[name][row]:.6g}" for name in COLUMNS]
+        table.writerow([design, *numbers, designs["status"][row]])
+    results.write_atomically(Path(output), text.getvalue().encode())
 
 
 if __name__ == "__main__":

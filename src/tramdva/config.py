@@ -7,6 +7,7 @@ lists and values replace. All problems of all files are reported at once, a line
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -272,22 +273,27 @@ def _validate(model: type[_Model], layers: Sequence[_Layer], problems: list[str]
         return model.model_validate(_merged(layers))
     except ValidationError as error:
         for slip in error.errors(include_url=False):
-            lowest = slip["type"] == "missing"
-            where = _origin(slip["loc"], layers, lowest).name
+            if slip["type"] == "too_short" and slip["input"]:
+                continue  # only because its items, reported themselves, did not count
+            where = _origin(slip["loc"], layers, missing=slip["type"] == "missing").name
             problems.append(f"{where}: {slips.in_words(slip, model)}")
         return None
 
 
-def _origin(path: Sequence[str | int], layers: Sequence[_Layer], lowest: bool = False) -> _Layer:
-    """Find the layer that is to blame for a path: it holds the largest part of it."""
-    candidates = layers if lowest else layers[::-1]
-    return max(candidates, key=lambda layer: _depth(layer.content, path))
+def _origin(path: Sequence[str | int], layers: Sequence[_Layer], missing: bool = False) -> _Layer:
+    """Find the layer that is to blame for a path: it holds the largest part of it.
+
+    Of several, it is the uppermost; but what is missing should stand in the lowest. A list comes
+    whole from one layer.
+    """
+    names = list(itertools.takewhile(lambda key: isinstance(key, str), path))
+    lowest = missing and len(names) == len(path)
+    return max(layers if lowest else layers[::-1], key=lambda layer: _depth(layer.content, names))
 
 
-def _depth(tree: Any, path: Sequence[str | int]) -> int:
+def _depth(tree: Any, path: Sequence[str]) -> int:
     for depth, key in enumerate(path):
-        try:
-            tree = tree[key]
-        except (KeyError, IndexError, TypeError):
+        if not isinstance(tree, Mapping) or key not in tree:
             return depth
+        tree = tree[key]
     return len(path)

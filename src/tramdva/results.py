@@ -182,7 +182,7 @@ def _encoded_flag(array: np.ndarray, meanings: tuple[str, ...]) -> np.ndarray:
         return np.array(codes, dtype=np.int8).reshape(array.shape)
     if array.size and array.dtype.kind not in "biu":
         raise ValueError(f"must be flags, not {array.dtype}")
-    if array.size and not (0 <= array.min() and array.max() < len(meanings)):
+    if array.size and (array.min() < 0 or array.max() >= len(meanings)):
         raise ValueError(f"must be between 0 and {len(meanings) - 1}")
     return array.astype(np.int8)
 

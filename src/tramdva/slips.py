@@ -47,7 +47,7 @@ def in_words(slip: Mapping[str, Any], model: type[BaseModel]) -> str:
     if kind == "too_short" and entry is not None and entry.kind == "list":
         return f"{path}: must not be empty ({entry.meaning})"
     if kind == "too_long" and entry is not None and entry.kind == "list":
-        return f"{path}: has {slip['ctx']['actual_length']} entries, {slip['ctx']['max_length']} at most"
+        return f"{path}: must have at most {slip['ctx']['max_length']} entries"
     return f"{path} = {shown(slip['input'])}: {_allowed(entry)}"
 
 
