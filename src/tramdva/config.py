@@ -45,7 +45,13 @@ STAGES: dict[str, tuple[str, ...]] = {
         "numerics.stability_map",
     ),
     "hopf_points": (*_FORCE, *_WHEELSET_OF_ANY_C_A, *_VARIANTS, "numerics.hopf_points"),
-    "limit_cycles": (*_FORCE, *_WHEELSET_OF_ANY_C_A, *_VARIANTS, "numerics.limit_cycles"),
+    "limit_cycles": (
+        *_FORCE,
+        *_WHEELSET_OF_ANY_C_A,
+        *_VARIANTS,
+        "study.limit_cycles",
+        "numerics.limit_cycles",
+    ),
     "hopf_curves": (
         *_FORCE,
         *_WHEELSET_OF_ANY_C_A,

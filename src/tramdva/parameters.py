@@ -178,6 +178,12 @@ class StabilityMapStudy(Section):
     c_T: StiffnessInterval
 
 
+class LimitCyclesStudy(Section):
+    """Range of figure 3."""
+
+    c_A: StiffnessInterval
+
+
 class HopfCurvesStudy(Section):
     """Damping values and ranges of figure 4."""
 
@@ -210,6 +216,7 @@ class Study(Section):
     """Ranges of the figures."""
 
     stability_map: StabilityMapStudy
+    limit_cycles: LimitCyclesStudy
     hopf_curves: HopfCurvesStudy
     critical_hopf_curve: CriticalHopfCurveStudy
     cycle_amplitudes: CycleAmplitudesStudy
@@ -289,6 +296,7 @@ class LimitCyclesNumerics(Section):
     degree: Whole = degree()
     tolerance: Real = tolerance()
     max_orbits: Whole = quantity("largest number of cycles per branch", "-", 5, 100000)
+    equilibria: Whole = quantity("points of the equilibrium branch", "-", 10, 100000)
 
 
 class HopfCurvesNumerics(Section):

@@ -1,11 +1,11 @@
 """Critical Hopf curve of figure 5."""
 
-from tramdva import job, results, self_excitation
+from tramdva import critical_absorber, job, results
 
 
 def main(*, output: str, code: str, cfg: dict, hopf_curves: str) -> None:
     """Follow the points where the Hopf points merge."""
-    values = self_excitation.critical_hopf_curve(cfg, results.read(hopf_curves))
+    values = critical_absorber.critical_hopf_curve(cfg, results.read(hopf_curves))
     results.save(output, "critical_hopf_curve", values, parameters=cfg, code=code)
 
 

@@ -1,11 +1,11 @@
 """Cycle amplitudes of figure 6."""
 
-from tramdva import job, results, self_excitation
+from tramdva import critical_absorber, job, results
 
 
 def main(*, output: str, code: str, cfg: dict, critical_hopf_curve: str) -> None:
     """Follow the limit cycles over the stiffness of the absorber."""
-    values = self_excitation.cycle_amplitudes(cfg, results.read(critical_hopf_curve))
+    values = critical_absorber.cycle_amplitudes(cfg, results.read(critical_hopf_curve))
     results.save(output, "cycle_amplitudes", values, parameters=cfg, code=code)
 
 

@@ -1,11 +1,11 @@
 """Hopf curves of figure 4."""
 
-from tramdva import job, results, self_excitation
+from tramdva import critical_absorber, job, results
 
 
 def main(*, output: str, code: str, cfg: dict) -> None:
     """Follow the Hopf points in the stiffnesses of axle and absorber."""
-    values = self_excitation.hopf_curves(cfg)
+    values = critical_absorber.hopf_curves(cfg)
     results.save(output, "hopf_curves", values, parameters=cfg, code=code)
 
 
