@@ -1,11 +1,11 @@
 """Cycle amplitudes of figure 6."""
 
-from tramdva import critical_absorber, job, results
+from tramdva import job, results, sustained_vibration
 
 
 def main(*, output: str, code: str, cfg: dict, critical_hopf_curve: str) -> None:
     """Follow the limit cycles over the stiffness of the absorber."""
-    values = critical_absorber.cycle_amplitudes(cfg, results.read(critical_hopf_curve))
+    values = sustained_vibration.cycle_amplitudes(cfg, results.read(critical_hopf_curve))
     results.save(output, "cycle_amplitudes", values, parameters=cfg, code=code)
 
 

@@ -1,11 +1,11 @@
 """Limit cycles of figure 3."""
 
-from tramdva import job, results, self_excitation
+from tramdva import job, results, sustained_vibration
 
 
 def main(*, output: str, code: str, cfg: dict, hopf_points: str) -> None:
     """Follow the limit cycles from the Hopf points."""
-    values = self_excitation.limit_cycles(cfg, results.read(hopf_points))
+    values = sustained_vibration.limit_cycles(cfg, results.read(hopf_points))
     results.save(output, "limit_cycles", values, parameters=cfg, code=code)
 
 

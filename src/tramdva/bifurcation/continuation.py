@@ -37,6 +37,9 @@ class Curve(Protocol):
     def prepare(self, point: Any) -> Any:
         """The point as the next step should start from it (an adapted mesh, say)."""
 
+    def record(self, point: Any) -> Any:
+        """The point as the branch keeps it, without what only the next step needs."""
+
 
 @dataclass(frozen=True)
 class SpecialPoint:
@@ -141,7 +144,7 @@ def trace(
         for kind, value in new_tests.items():
             if value * tests.get(kind, np.nan) < 0.0:
                 branch.special.append(_locate(curve, point, step, kind, tests[kind], value))
-        branch.points.append(new)
+        branch.points.append(curve.record(new))
         branch.tests.append(new_tests)
         if reason is not None:
             branch.ended = reason
@@ -181,7 +184,7 @@ def _locate(
     precision = 1e-10 * step
     brentq(test, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
     best = min(found.values(), key=lambda pair: abs(pair[1]))
-    return SpecialPoint(kind, best[0], precision)
+    return SpecialPoint(kind, curve.record(best[0]), precision)
 
 
 @dataclass(frozen=True)
@@ -269,4 +272,8 @@ class AlgebraicCurve:
 
     def prepare(self, point: CurvePoint) -> CurvePoint:
         """Nothing to prepare."""
+        return point
+
+    def record(self, point: CurvePoint) -> CurvePoint:
+        """Nothing to leave out."""
         return point

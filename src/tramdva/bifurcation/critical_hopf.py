@@ -22,11 +22,10 @@ def eigenvalue_derivative(
     system: DynamicalSystem,
     state: np.ndarray,
     parameters: np.ndarray,
-    vector: np.ndarray,
-    omega: float,
+    near: complex,
     index: int,
 ) -> complex:
-    """Derivative of the eigenvalue i omega in a parameter, along the branch of equilibria.
+    """Derivative of an eigenvalue in a parameter, along the branch of equilibria.
 
     Parameters
     ----------
@@ -34,10 +33,8 @@ def eigenvalue_derivative(
     state : (n,) array
         Equilibrium.
     parameters : (q,) array
-    vector : (n,) complex array
-        Eigenvector u.
-    omega : float
-        Angular frequency.
+    near : complex
+        The eigenvalue of J nearest to this is meant.
     index : int
         Position of the parameter.
 
@@ -51,28 +48,26 @@ def eigenvalue_derivative(
     J' is the total derivative: J also changes with the equilibrium, x' = -J^-1 f_p.
     """
     J = system.jacobian(state[None], parameters)[0]
+    values, vectors = np.linalg.eig(J)
+    k = int(np.argmin(np.abs(values - near)))
+    psi = np.linalg.inv(vectors)[k]  # rows of the inverse are left eigenvectors, psi^T u = 1
+    total = total_jacobian_derivative(system, state, parameters, J, index)[0]
+    return complex(psi @ total @ vectors[:, k])
+
+
+def total_jacobian_derivative(
+    system: DynamicalSystem,
+    state: np.ndarray,
+    parameters: np.ndarray,
+    J: np.ndarray,
+    index: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """J' = J_p + (dJ/dx) x' and x' = -J^-1 f_p along the branch of equilibria, (n, n) and (n,)."""
     f_p = system.rhs_parameter_derivative(state[None], parameters, index)[0]
-    total = system.jacobian_parameter_derivative(state[None], parameters, index)[0]
     moved = np.linalg.solve(J, -f_p)
-    total = total + system.jacobian_directional_derivative(state[None], parameters, moved)[0]
-    psi = _left_eigenvector(J, vector, omega)
-    return complex(psi @ total @ vector / (psi @ vector))
-
-
-def _left_eigenvector(J: np.ndarray, vector: np.ndarray, omega: float) -> np.ndarray:
-    """psi with psi^T J = i omega psi^T; the border makes the singular matrix regular.
-
-    ::
-
-        [ J^T - i omega   conj(u) ] [ psi ]   [ 0 ]
-        [ u^H              0      ] [  .  ] = [ 1 ]
-    """
-    n = len(J)
-    bordered = np.zeros((n + 1, n + 1), complex)
-    bordered[:n, :n] = J.T - 1j * omega * np.eye(n)
-    bordered[:n, n] = np.conj(vector)
-    bordered[n, :n] = np.conj(vector)
-    return np.linalg.solve(bordered, np.eye(n + 1)[n])[:n]
+    J_p = system.jacobian_parameter_derivative(state[None], parameters, index)[0]
+    J_x = system.jacobian_directional_derivative(state[None], parameters, moved)[0]
+    return J_p + J_x, moved
 
 
 @dataclass(frozen=True)
@@ -142,21 +137,54 @@ class _CriticalSystem:
         if not np.isfinite(x).all():
             return np.full(2 * n + 3, np.nan)
         J = self.system.jacobian(x[None], p)[0]
-        slope = eigenvalue_derivative(self.system, x, p, u_R + 1j * u_I, omega, self.free[0])
-        # The cosine of the direction in which the eigenvalue moves: 0 where it moves along the
-        # axis.
-        tangency = [slope.real / abs(slope)]
         scaling = [u_R[self.k] - 1.0, u_I[self.k]]
+        tangency = [self._tangency(z[2 * n + 1 :], omega)]
         return np.concatenate([J @ u_R + omega * u_I, J @ u_I - omega * u_R, scaling, tangency])
 
+    def _tangency(self, free: np.ndarray, omega: float) -> float:
+        """Cosine of the direction in which the eigenvalue near i omega moves with p_1, eq. (15)."""
+        p = self._parameters.copy()
+        p[self.free] = free
+        slope = eigenvalue_derivative(self.system, self.equilibrium(p), p, 1j * omega, self.free[0])
+        return slope.real / abs(slope)
+
     def derivative(self, z: np.ndarray) -> np.ndarray:
-        """Central differences: (15) already contains second derivatives of f."""
-        steps = 1e-6 * np.maximum(1.0, np.abs(z))
-        columns = [
-            (self.residual(z + h * e) - self.residual(z - h * e)) / (2.0 * h)
-            for h, e in zip(steps, np.eye(len(z)), strict=True)
-        ]
-        return np.array(columns).T
+        """Derivative of the residual in z.
+
+        ::
+
+                      u_R      u_I      omega   p_1..p_3
+            (10b)  [  J        omega    u_I     J' u_R   ]
+            (10c)  [ -omega    J       -u_R     J' u_I   ]
+            (10d)  [  e_k      .        .       .        ]
+            (10e)  [  .        e_k      .       .        ]
+            (15)   [  .        .        .       central differences ]
+
+        (15) already contains second derivatives of f.
+        """
+        n, k = self.n, self.k
+        u_R, u_I, omega = z[:n], z[n : 2 * n], z[2 * n]
+        p = self.parameters(z)
+        x = self.equilibrium(p)
+        J = self.system.jacobian(x[None], p)[0]
+        out = np.zeros((2 * n + 3, z.size))
+        out[:n, :n] = out[n : 2 * n, n : 2 * n] = J
+        rows = np.arange(n)
+        out[rows, n + rows] = omega
+        out[n + rows, rows] = -omega
+        out[:n, 2 * n] = u_I
+        out[n : 2 * n, 2 * n] = -u_R
+        out[2 * n, k] = out[2 * n + 1, n + k] = 1.0
+        free = z[2 * n + 1 :]
+        for i, index in enumerate(self.free):
+            column = 2 * n + 1 + i
+            total = total_jacobian_derivative(self.system, x, p, J, index)[0]
+            out[:n, column] = total @ u_R
+            out[n : 2 * n, column] = total @ u_I
+            h = 1e-6 * max(1.0, abs(free[i])) * np.eye(3)[i]
+            slope = self._tangency(free + h, omega) - self._tangency(free - h, omega)
+            out[2 * n + 2, column] = slope / (2.0 * h[i])
+        return out
 
 
 def _first(

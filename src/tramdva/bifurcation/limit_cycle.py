@@ -5,8 +5,7 @@ References
 E. J. Doedel, H. B. Keller, J. P. Kernevez, Int. J. Bifurcation and Chaos 1 (1991) 745-772.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import eigvals
@@ -15,76 +14,11 @@ from tramdva.bifurcation import collocation
 from tramdva.bifurcation.collocation import BorderedFactors
 from tramdva.bifurcation.continuation import Branch, StepControl, trace
 from tramdva.bifurcation.hopf import HopfPoint
+from tramdva.bifurcation.orbit import Direction, LimitCycle, Linearisation
 from tramdva.bifurcation.system import DynamicalSystem
 
 # A chord step must shrink the residual by this factor, else the matrix is factorised anew.
 _CHORD_RATE = 0.2
-
-Direction = tuple[np.ndarray, float, float]  # nodal values (N m + 1, n), period, parameter
-
-
-@dataclass(frozen=True)
-class Linearisation:
-    """Factorised matrix of an orbit and its solution for the right-hand side (0, .., 0, 1)."""
-
-    factors: BorderedFactors
-    column: Direction
-
-
-@dataclass(frozen=True)
-class LimitCycle:
-    """A periodic orbit on its mesh.
-
-    Attributes
-    ----------
-    mesh : (N + 1,) array
-        Mesh points in [0, 1], times over the period.
-    nodal : (N m + 1, n) array
-        States at the nodes.
-    period : float
-    parameters : (q,) array
-    tangent : tuple
-        Direction of the branch: nodal values (N m + 1, n), period, parameter; unit length.
-    multipliers : (n,) complex array
-        Floquet multipliers, the trivial one (nearest to 1) first.
-    residual : float
-        Largest residual of the collocation equations.
-    curvature : Direction or None
-        Change of the tangent per arclength, for a predictor of second order.
-    step : float
-        Arclength from the orbit that predicted this one.
-    linearisation : Linearisation or None
-        Factorised matrix of the orbit, for the next one.
-    """
-
-    mesh: np.ndarray
-    nodal: np.ndarray
-    period: float
-    parameters: np.ndarray
-    tangent: Direction
-    multipliers: np.ndarray = field(default_factory=lambda: np.empty(0, complex))
-    residual: float = np.inf
-    curvature: Direction | None = field(default=None, repr=False, compare=False)
-    step: float = 0.0
-    linearisation: Linearisation | None = field(default=None, repr=False, compare=False)
-
-    @property
-    def degree(self) -> int:
-        """Degree m of the polynomials."""
-        return (len(self.nodal) - 1) // (len(self.mesh) - 1)
-
-    @property
-    def stable(self) -> bool:
-        """Whether all but the trivial multiplier are inside the unit circle."""
-        return bool(np.all(np.abs(self.multipliers[1:]) < 1.0))
-
-    def states(self, tau: np.ndarray) -> np.ndarray:
-        """States (k, n) at times tau (k,) in [0, 1]."""
-        return collocation.evaluate(self.mesh, self.nodal, self.degree, tau)
-
-    def deviation(self) -> np.ndarray:
-        """Nodal values less their mean over the nodes, (N m + 1, n)."""
-        return self.nodal - self.nodal[:-1].mean(axis=0)
 
 
 class LimitCycleCurve:
@@ -139,17 +73,17 @@ class LimitCycleCurve:
         direction = sign * np.real(phase[:, None] * hopf.vector)
         nodal = np.tile(hopf.state, (len(phase), 1))
         period = 2.0 * np.pi / hopf.omega
-        cycle = LimitCycle(mesh, nodal, period, hopf.parameters, (direction, 0.0, 0.0))
+        cycle = LimitCycle(mesh, nodal, period, hopf.parameters, Direction(direction, 0.0, 0.0))
         return replace(cycle, tangent=self._unit(cycle, cycle.tangent))
 
     # The operations of `continuation.Curve`
 
     def predict(self, point: LimitCycle, step: float) -> LimitCycle:
         """Orbit at a step along the tangent, bent by the curvature where that is known."""
-        change = _scaled(point.tangent, step)
+        change = point.tangent.scaled(step)
         if point.curvature is not None:
-            change = _sum(change, _scaled(point.curvature, 0.5 * step**2))
-        return replace(_moved(point, change, self.index), step=step)
+            change = change.plus(point.curvature.scaled(0.5 * step**2))
+        return replace(point.moved(change, self.index), step=step)
 
     def correct(self, predicted: LimitCycle) -> tuple[LimitCycle | None, int]:
         """Orbit in the hyperplane through the prediction, orthogonal to its tangent."""
@@ -164,7 +98,7 @@ class LimitCycleCurve:
         rest = point.multipliers[1:]
         i, j = np.triu_indices(len(rest), 1)
         return {
-            "fold": point.tangent[2],
+            "fold": point.tangent.parameter,
             "period_doubling": float(np.prod(1.0 + rest).real) if rest.size else np.nan,
             "torus": float(np.prod(1.0 - rest[i] * rest[j]).real) if len(rest) > 1 else np.nan,
         }
@@ -183,13 +117,17 @@ class LimitCycleCurve:
         adapted = self._solve(self._remeshed(point), fixed_parameter=False)[0]
         return point if adapted is None else adapted
 
+    def record(self, point: LimitCycle) -> LimitCycle:
+        """The orbit without its factorised matrix (half a megabyte each)."""
+        return replace(point, linearisation=None)
+
     # Orbits at given parameters
 
     def at_parameter(self, point: LimitCycle, value: float) -> LimitCycle | None:
         """Orbit at a value of the free parameter, from a nearby orbit; None if that fails."""
         distance = value - point.parameters[self.index]
-        slope = point.tangent[2]
-        bend = point.curvature[2] if point.curvature is not None else 0.0
+        slope = point.tangent.parameter
+        bend = point.curvature.parameter if point.curvature is not None else 0.0
         # Arclength s with slope s + bend s^2 / 2 = distance; the parabola may not reach that far.
         root = np.sqrt(max(slope**2 + 2.0 * bend * distance, 0.0))
         if slope == 0.0 and root == 0.0:
@@ -207,7 +145,7 @@ class LimitCycleCurve:
         (arclength), or leaves the parameter as it is.
         """
         cycle, linearisation = predicted, predicted.linearisation
-        row = (0.0 * predicted.nodal, 0.0, 1.0)
+        row = Direction(0.0 * predicted.nodal, 0.0, 1.0)
         if not fixed_parameter:
             row = self._dual(predicted, predicted.tangent)
         last, last_change = np.inf, np.inf
@@ -221,8 +159,8 @@ class LimitCycleCurve:
             if linearisation is None:
                 return None, iteration
             step = self._step(linearisation, residual, row)
-            cycle = _moved(cycle, step, self.index)
-            change = max(np.abs(step[0]).max(), abs(step[1]) / cycle.period)
+            cycle = cycle.moved(step, self.index)
+            change = max(np.abs(step.nodal).max(), abs(step.period) / cycle.period)
             # The next change would be smaller by the rate seen so far.
             rate = change / last_change if np.isfinite(last_change) else 1.0
             if change * min(rate, 1.0) <= self._tolerance:
@@ -238,9 +176,9 @@ class LimitCycleCurve:
         The matrix may have another last row: with t = `column` all other rows give zero, so that
         x - t (v x) / (v t) solves the system with the row v.
         """
-        x = collocation.solve(linearisation.factors, -residual, (0.0, 0.0))
+        x = Direction(*collocation.solve(linearisation.factors, -residual, (0.0, 0.0)))
         t = linearisation.column
-        return _sum(x, _scaled(t, -_dot(row, x) / _dot(row, t)))
+        return x.plus(t.scaled(-row.dot(x) / row.dot(t)))
 
     def _finished(self, cycle: LimitCycle, predicted: LimitCycle) -> LimitCycle | None:
         """The converged orbit with its own matrix, tangent and multipliers."""
@@ -250,12 +188,12 @@ class LimitCycleCurve:
             return None
         tangent = self._unit(cycle, linearisation.column)
         if self.product(cycle, predicted.tangent, tangent) < 0.0:
-            tangent = _scaled(tangent, -1.0)
-        bend = _sum(tangent, _scaled(predicted.tangent, -1.0))
+            tangent = tangent.scaled(-1.0)
+        bend = tangent.plus(predicted.tangent.scaled(-1.0))
         return replace(
             cycle,
             tangent=tangent,
-            curvature=_scaled(bend, 1.0 / predicted.step) if predicted.step else None,
+            curvature=bend.scaled(1.0 / predicted.step) if predicted.step else None,
             multipliers=floquet_multipliers(linearisation.factors),
             residual=float(np.abs(residual).max()),
             linearisation=linearisation,
@@ -290,66 +228,45 @@ class LimitCycleCurve:
             factors = collocation.factorise(
                 base, h, cycle.period, J, f, f_p.reshape(u.shape), slope, arc, scalars
             )
-            column = collocation.solve(factors, np.zeros_like(f), (0.0, 1.0))
+            column = Direction(*collocation.solve(factors, np.zeros_like(f), (0.0, 1.0)))
         except np.linalg.LinAlgError:
             return None
-        return Linearisation(factors, column) if np.isfinite(column[0]).all() else None
+        return Linearisation(factors, column) if np.isfinite(column.nodal).all() else None
 
     def product(self, cycle: LimitCycle, a: Direction, b: Direction) -> float:
         """Inner product of two directions: states over the period, period, scaled parameter."""
-        return _dot(self._dual(cycle, a), b)
+        return self._dual(cycle, a).dot(b)
 
     def _dual(self, cycle: LimitCycle, direction: Direction) -> Direction:
         """Weights whose plain dot product with another direction is the inner product."""
         base = collocation.basis(cycle.degree)
-        nodal = direction[0]
+        nodal = direction.nodal
         local = base.mass @ collocation.interval_values(nodal, cycle.degree)
         local *= np.diff(cycle.mesh)[:, None, None]
         weights = np.zeros_like(nodal)
         weights[:-1] = local[:, :-1].reshape(-1, nodal.shape[1])
         weights[cycle.degree :: cycle.degree] += local[:, -1]
-        return weights, direction[1] / cycle.period**2, self._weight * direction[2]
+        return Direction(
+            weights, direction.period / cycle.period**2, self._weight * direction.parameter
+        )
 
     def _unit(self, cycle: LimitCycle, direction: Direction) -> Direction:
         length = np.sqrt(self.product(cycle, direction, direction))
-        return _scaled(direction, 1.0 / length)
+        return direction.scaled(1.0 / length)
 
     def _remeshed(self, cycle: LimitCycle) -> LimitCycle:
         mesh = collocation.equidistributed_mesh(cycle.mesh, cycle.nodal, cycle.degree)
         tau = collocation.node_times(mesh, cycle.degree)
-        tangent = collocation.evaluate(cycle.mesh, cycle.tangent[0], cycle.degree, tau)
+        tangent = collocation.evaluate(cycle.mesh, cycle.tangent.nodal, cycle.degree, tau)
         return replace(
             cycle,
             mesh=mesh,
             nodal=cycle.states(tau),
-            tangent=(tangent, *cycle.tangent[1:]),
+            tangent=cycle.tangent._replace(nodal=tangent),
             curvature=None,
             step=0.0,
             linearisation=None,
         )
-
-
-def _scaled(direction: Direction, factor: float) -> Direction:
-    return direction[0] * factor, direction[1] * factor, direction[2] * factor
-
-
-def _sum(a: Direction, b: Direction) -> Direction:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def _dot(a: Direction, b: Direction) -> float:
-    return float(np.vdot(a[0], b[0]) + a[1] * b[1] + a[2] * b[2])
-
-
-def _moved(cycle: LimitCycle, change: Direction, index: int) -> LimitCycle:
-    parameters = cycle.parameters.copy()
-    parameters[index] += change[2]
-    return replace(
-        cycle,
-        nodal=cycle.nodal + change[0],
-        period=cycle.period + change[1],
-        parameters=parameters,
-    )
 
 
 def floquet_multipliers(factors: BorderedFactors) -> np.ndarray:
@@ -390,7 +307,7 @@ def follow(
         the last one before), ``window``, ``max_points``, ``no_convergence`` or ``sharp_turn``.
     """
     low, high = bounds
-    previous = [start.tangent[0]]
+    previous = [start.tangent.nodal]
 
     def ends(cycle: LimitCycle) -> str | None:
         deviation = cycle.deviation()
@@ -404,49 +321,3 @@ def follow(
     branch = trace(curve, start, control, ends, discard=frozenset({"hopf_point", "window"}))
     del branch.points[0], branch.tests[0]
     return branch
-
-
-def extrema(
-    cycle: LimitCycle, observables: Callable[[np.ndarray], np.ndarray], samples: int = 8
-) -> tuple[np.ndarray, np.ndarray]:
-    """Smallest and largest values of functions of the state over the orbit.
-
-    Parameters
-    ----------
-    cycle : LimitCycle
-        Orbit.
-    observables : callable
-        Functions of the states, (m, n) -> (m, k).
-    samples : int
-        Samples per mesh interval of the first search.
-
-    Returns
-    -------
-    tuple of (k,) arrays
-        Minima and maxima of the polynomial orbit, not of its mesh values: each is bracketed by the
-        samples,
-        sampled anew in the bracket and interpolated by a parabola (relative error below 1e-10).
-    """
-    fractions = np.arange(samples) / samples
-    tau = (cycle.mesh[:-1, None] + np.diff(cycle.mesh)[:, None] * fractions).ravel()
-    values = observables(cycle.states(tau))
-    signed = np.hstack([-values, values])
-    best = np.argmax(signed, axis=0)
-    after = np.append(tau, 1.0 + tau[0])[best + 1]
-    before = np.append(tau[-1] - 1.0, tau)[best]
-    fine = before + (after - before) * np.linspace(0.0, 1.0, 33)[:, None]
-    refined = observables(cycle.states(np.mod(fine, 1.0).ravel()))
-    refined = np.hstack([-refined, refined]).reshape(33, len(best), len(best))
-    peaks = np.array([_parabola_maximum(refined[:, k, k]) for k in range(len(best))])
-    half = len(best) // 2
-    return -peaks[:half], peaks[half:]
-
-
-def _parabola_maximum(y: np.ndarray) -> float:
-    """Maximum of equidistant samples with an inner maximum."""
-    k = int(np.clip(np.argmax(y), 1, len(y) - 2))
-    left, centre, right = y[k - 1 : k + 2]
-    curvature = left - 2.0 * centre + right
-    if curvature >= 0.0:
-        return float(y.max())
-    return float(centre - 0.125 * (right - left) ** 2 / curvature)
