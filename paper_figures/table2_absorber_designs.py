@@ -1,8 +1,6 @@
 """Table 2: designs of the absorber side by side."""
 
 import csv
-import io
-from pathlib import Path
 
 from tramdva import job, results
 
@@ -11,6 +9,7 @@ COLUMNS = {
     "c_T": "c_T (N/m)",
     "d_T": "d_T (N s/m)",
     "peak_receptance": "peak receptance (m/N)",
+    "reduction": "reduction (-)",
     "peak_frequency": "peak frequency (Hz)",
     "growth_rate": "growth rate (1/s)",
     "critical_c_T": "critical c_T (N/m)",
@@ -21,13 +20,12 @@ COLUMNS = {
 def main(*, output: str, code: str, absorber_tuning: str) -> None:
     """Write the designs as a table, a row each."""
     designs = results.read(absorber_tuning)
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(["design", *COLUMNS.values(), "status"])
-    for row, design in enumerate(designs["design"]):
-        numbers = [f"{designs[name][row]:.6g}" for name in COLUMNS]
-        table.writerow([design, *numbers, designs["status"][row]])
-    results.write_atomically(Path(output), text.getvalue().encode())
+    with results.atomically(output) as part, part.open("w", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["design", *COLUMNS.values(), "status"])
+        for row, design in enumerate(designs["design"]):
+            numbers = [f"{designs[name][row]:.6g}" for name in COLUMNS]
+            table.writerow([design, *numbers, designs["status"][row]])
 
 
 if __name__ == "__main__":

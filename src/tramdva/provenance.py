@@ -37,10 +37,10 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
         20 hexadecimal digits.
     """
     script = Path(script)
-    digest = hashlib.sha256(_tree(script).encode())
+    digest = hashlib.sha256(_tree_hash(script))
     for name in sorted(_reached(script, package)):
         stage = script.stem if name == REGISTRY else ""
-        digest.update(f"\n{name}\n{_tree(_file(name, package), stage)}".encode())
+        digest.update(name.encode() + _tree_hash(_file(name, package), stage))
     for path in data:
         digest.update(Path(path).read_bytes())
     return digest.hexdigest()[:20]
@@ -105,10 +105,11 @@ def _reached(script: Path, package: Path) -> set[str]:
 def _imported(path: Path, package: Path) -> Iterator[str]:
     for name in _absolute_imports(path):
         parts = name.split(".")
-        for end in range(1, len(parts) + 1):
-            module = ".".join(parts[:end])
-            if _file(module, package).is_file():
-                yield module
+        modules = [".".join(parts[:end]) for end in range(1, len(parts) + 1)]
+        files = [module for module in modules if _file(module, package).is_file()]
+        if len(files) < min(2, len(parts)):
+            raise ValueError(f"{path}: there is no module {name}")
+        yield from files
 
 
 def _file(module: str, package: Path) -> Path:
@@ -118,17 +119,17 @@ def _file(module: str, package: Path) -> Path:
 
 def _absolute_imports(path: Path) -> tuple[str, ...]:
     status = path.stat()
-    return _parsed(path, status.st_mtime_ns, status.st_size)[0]
+    return _parsed(path, status.st_mtime_ns, status.st_size, "")[0]
 
 
-def _tree(path: Path, stage: str = "") -> str:
+def _tree_hash(path: Path, stage: str = "") -> bytes:
     status = path.stat()
     return _parsed(path, status.st_mtime_ns, status.st_size, stage)[1]
 
 
 @functools.cache
-def _parsed(path: Path, mtime_ns: int, size: int, stage: str = "") -> tuple[tuple[str, ...], str]:
-    """Return the tramdva modules that a file imports and its syntax tree as text."""
+def _parsed(path: Path, mtime_ns: int, size: int, stage: str) -> tuple[tuple[str, ...], bytes]:
+    """Return the modules of tramdva that a file imports and the hash of its syntax tree."""
     tree = ast.parse(path.read_bytes(), filename=str(path))
     imports: list[str] = []
     for node in ast.walk(tree):
@@ -142,7 +143,7 @@ def _parsed(path: Path, mtime_ns: int, size: int, stage: str = "") -> tuple[tupl
     if stage:
         _keep_entry(tree, stage)
     own = tuple(name for name in imports if name.split(".")[0] == "tramdva")
-    return own, ast.dump(tree)
+    return own, hashlib.sha256(ast.dump(tree).encode()).digest()
 
 
 def _drop_docstring(node: ast.AST) -> None:

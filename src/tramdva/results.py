@@ -1,15 +1,16 @@
 """Save and load result files: validated, stamped, atomic and bit-identical on rewriting.
 
-A file is built in memory, written under a temporary name, synchronised and renamed: at no moment
-does half a file bear the final name. It holds no dates, so that the same values give the same
-bytes. `tramdva.registry` says which variables belong to each file.
+A file is written under a temporary name, synchronised and renamed: at no moment does half a file
+bear the final name. It holds no dates, so that the same values give the same bytes.
+`tramdva.registry` says which variables belong to each file.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -63,19 +64,27 @@ def save(
         "code_hash": code,
         "parameters": json.dumps(parameters, sort_keys=True, ensure_ascii=False, allow_nan=False),
     }
-    write_atomically(Path(path), _netcdf(STAGES[stage], arrays, lengths, stamps))
+    with atomically(path) as part:
+        try:
+            _write(part, STAGES[stage], arrays, lengths, stamps)
+        except RuntimeError as error:
+            raise OSError(f"{path}: cannot be written, disk full? ({error})") from None
 
 
-def write_atomically(path: Path, content: bytes | memoryview) -> None:
-    """Write a file so that its name never stands for half of it."""
+@contextmanager
+def atomically(path: str | Path) -> Iterator[Path]:
+    """Give a temporary name to write to, which becomes the file when the block succeeds.
+
+    The name of the file thus never stands for half of it.
+    """
+    path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     for leftover in path.parent.glob(f".{path.name}.*.part"):
         leftover.unlink(missing_ok=True)
     part = path.parent / f".{path.name}.{os.getpid()}.part"
     try:
-        with part.open("xb") as file:
-            file.write(content)
-            file.flush()
+        yield part
+        with part.open("rb+") as file:
             os.fsync(file.fileno())
         part.replace(path)
     except BaseException:
@@ -187,24 +196,19 @@ def _encoded_flag(array: np.ndarray, meanings: tuple[str, ...]) -> np.ndarray:
     return array.astype(np.int8)
 
 
-def _netcdf(
+def _write(
+    path: Path,
     stage: Stage,
     arrays: Mapping[str, np.ndarray],
     lengths: Mapping[str, int],
     stamps: Mapping[str, str],
-) -> memoryview:
-    dataset = netCDF4.Dataset("result.nc", "w", format="NETCDF4", memory=1)
-    dataset.setncatts(stamps)
-    for dimension, length in lengths.items():
-        dataset.createDimension(dimension, length)
-    for name, variable in stage.variables.items():
-        _add(dataset, name, variable, arrays[name])
-    return _trimmed(dataset.close())
-
-
-def _trimmed(image: memoryview) -> memoryview:
-    """Cut the padding behind the end that an HDF5 file in memory states (superblock 2)."""
-    return image[: int.from_bytes(image[28:36], "little")]
+) -> None:
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as dataset:
+        dataset.setncatts(stamps)
+        for dimension, length in lengths.items():
+            dataset.createDimension(dimension, length)
+        for name, variable in stage.variables.items():
+            _add(dataset, name, variable, arrays[name])
 
 
 def _add(dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray) -> None:
