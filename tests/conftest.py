@@ -30,17 +30,39 @@ def config_folder(tmp_path: Path) -> Path:
     return shutil.copytree(ROOT / "config", tmp_path / "config")
 
 
+def copy_code(source: Path, target: Path) -> Path:
+    """Copy what a run of the pipeline needs."""
+    for name in ("src", "workflow", "paper_figures", "profiles", "config"):
+        ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "*.png")
+        shutil.copytree(source / name, target / name, ignore=ignored)
+    shutil.copy(source / "Snakefile", target)
+    return target
+
+
 @pytest.fixture(scope="session")
-def snakemake():
-    """Start snakemake, in a folder other than the checkout, and return how it ended."""
+def frozen_code(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Copy of the code, so that edits during the tests do not disturb them."""
+    return copy_code(ROOT, tmp_path_factory.mktemp("frozen") / "code")
+
+
+@pytest.fixture
+def code(frozen_code: Path, tmp_path: Path) -> Path:
+    """Copy of the code that a test may edit."""
+    return copy_code(frozen_code, tmp_path / "code")
+
+
+@pytest.fixture(scope="session")
+def snakemake(frozen_code: Path):
+    """Start snakemake with a copy of the code and return how it ended."""
 
     def start(
-        folder: Path, *arguments: str, snakefile: Path = ROOT / "Snakefile"
+        folder: Path, *arguments: str, code: Path = frozen_code, snakefile: str = "Snakefile"
     ) -> subprocess.CompletedProcess:
-        program = [sys.executable, "-m", "snakemake", "--snakefile", str(snakefile)]
+        program = [sys.executable, "-m", "snakemake", "--snakefile", str(code / snakefile)]
         return subprocess.run(
             [*program, "--directory", str(folder), *arguments],
-            cwd=snakefile.parent,
+            cwd=code,
+            env=os.environ | {"PYTHONPATH": str(code / "src")},
             capture_output=True,
             text=True,
             timeout=600,

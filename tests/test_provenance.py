@@ -149,7 +149,7 @@ def test_reached_modules_are_those_that_python_loads(root: Path) -> None:
     )
 
     for script, loaded in json.loads(ran.stdout).items():
-        reached = provenance._reached(Path(script), provenance.PACKAGE)
+        reached = provenance.reached_modules(Path(script))
         assert reached == set(loaded) - provenance.WITHOUT_EFFECT, script
 
 

@@ -38,7 +38,7 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     """
     script = Path(script)
     digest = hashlib.sha256(_tree_hash(script))
-    for name in sorted(_reached(script, package)):
+    for name in sorted(reached_modules(script, package)):
         stage = script.stem if name == REGISTRY else ""
         digest.update(name.encode() + _tree_hash(_file(name, package), stage))
     for path in data:
@@ -90,8 +90,8 @@ def _remove_unused(current: Path) -> None:
             continue
 
 
-def _reached(script: Path, package: Path) -> set[str]:
-    """Names of all modules that a script imports, directly or through others."""
+def reached_modules(script: Path, package: Path = PACKAGE) -> set[str]:
+    """Name all modules of tramdva that a script imports, directly or through others."""
     reached: set[str] = set()
     waiting = list(_imported(script, package))
     while waiting:
