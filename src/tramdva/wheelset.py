@@ -139,6 +139,8 @@ def _lateral_equilibrium(p, with_absorber):
             break
         step = -residual / slope
         y_R = y_R + step
+    if not (abs(step) <= 1e-12 * p.L.real and V_0.real > 0.0):
+        V_0 = V_0 * np.nan  # no steady rolling within the curve
     return y_A, y_T, y_R, V_0, abs(step)
 
 
@@ -290,8 +292,8 @@ def equilibrium(values: WheelsetParameters, with_absorber: bool) -> Equilibrium:
         If Newton's method does not converge.
     """
     y_A, y_T, y_R, V_0, step = _lateral_equilibrium(WheelsetParameters(*values), with_absorber)
-    if not step <= 1e-12 * abs(values.L):
-        raise ArithmeticError(f"no lateral equilibrium: Newton's last step is {step:.1e} m")
+    if not np.isfinite(V_0):
+        raise ArithmeticError(f"no steady rolling in the curve: Newton's last step is {step:.1e} m")
     return Equilibrium(y_A, y_T if with_absorber else np.nan, y_R, V_0)
 
 

@@ -107,6 +107,8 @@ class _CriticalSystem:
         self._parameters = start.parameters
         self._state = start.state
         self.n = system.dimension
+        # dRe(sigma)/dp_1 relative to the frequency and to p_1, of the size of the other equations
+        self._scale = max(1.0, abs(start.parameters[self.free[0]])) / start.omega
 
     def pack(self, point: HopfPoint) -> np.ndarray:
         u = point.vector / point.vector[self.k]
@@ -142,11 +144,11 @@ class _CriticalSystem:
         return np.concatenate([J @ u_R + omega * u_I, J @ u_I - omega * u_R, scaling, tangency])
 
     def _tangency(self, free: np.ndarray, omega: float) -> float:
-        """Cosine of the direction in which the eigenvalue near i omega moves with p_1, eq. (15)."""
+        """Scaled derivative of the growth rate in p_1, of the eigenvalue near i omega, eq. (15)."""
         p = self._parameters.copy()
         p[self.free] = free
         slope = eigenvalue_derivative(self.system, self.equilibrium(p), p, 1j * omega, self.free[0])
-        return slope.real / abs(slope)
+        return self._scale * slope.real
 
     def derivative(self, z: np.ndarray) -> np.ndarray:
         """Derivative of the residual in z.
