@@ -1,12 +1,11 @@
 """The paper's table of contents: one rule per stage, one per figure, in the paper's order."""
 
-import os
 from functools import partial
 from pathlib import Path
 
 from tramdva import job
 from tramdva.config import load_or_exit, stage
-from tramdva.provenance import code_hash, numba_cache_folder
+from tramdva.provenance import code_hash, use_numba_cache
 
 ROOT = Path(workflow.current_basedir)
 SCRIPTS = ROOT / "workflow/scripts"
@@ -22,7 +21,7 @@ configuration = load_or_exit(
 )
 LINES = configuration.run.lines
 values = partial(stage, configuration)
-os.environ["NUMBA_CACHE_DIR"] = str(numba_cache_folder())
+use_numba_cache()
 
 
 report: "workflow/report/workflow.rst"
