@@ -30,7 +30,7 @@ class HopfPoint:
     parameters : (q,) array
         Parameter vector.
     residual : float
-        Largest component of the extended system (10).
+        Largest component of the extended system (10) before Newton's last step.
     converged : bool
         Whether Newton's method reached its tolerance.
     """
@@ -188,11 +188,13 @@ def solve_hopf_point(
     for _ in range(max_iterations + 1):
         G = extended.residual(z)
         size = float(np.abs(G).max())
-        if size <= tolerance or not np.isfinite(size):
+        if not np.isfinite(size):
             break
         try:
-            z = z - np.linalg.solve(extended.derivative(z), G)
+            z = z - np.linalg.solve(extended.derivative(z), G)  # also once more at the tolerance
         except np.linalg.LinAlgError:
+            break
+        if size <= tolerance:
             break
     point = extended.unpack(z, size)
     return replace(point, converged=bool(size <= tolerance and point.omega > 0.0))
