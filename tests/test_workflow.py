@@ -47,7 +47,7 @@ USERS = {
     "creep_force": list(STAGES),
     "wheelset": list(STAGES),
     "wheelset.c_A": ["stability_map", "cycle_amplitudes", "absorber_tuning", "frequency_response"],
-    "absorber": ["absorber_tuning"],
+    "absorber": ["absorber_tuning", "fig02_stability_map", "fig05_critical_hopf_curve"],
     "absorber.m_T": WITH_VARIANTS + WITH_CRITICAL_CURVE,
     "forced_excitation": ["absorber_tuning", "frequency_response"],
     "absorber_variants": WITH_VARIANTS,

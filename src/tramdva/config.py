@@ -33,6 +33,7 @@ _VARIANTS = (
     "absorber_variants.d_T",
 )
 _FIGURE = ("label",)
+_FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
 _FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
 
 # What each stage and each figure uses. `study.<x>` and `numerics.<x>` come without the <x>.
@@ -88,10 +89,10 @@ STAGES: dict[str, tuple[str, ...]] = {
         "study.frequency_response",
         "numerics.frequency_response",
     ),
-    "fig02_stability_map": _FIGURE_OF_VARIANTS,
+    "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
-    "fig05_critical_hopf_curve": _FIGURE,
+    "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
     "fig06_cycle_amplitudes": _FIGURE,
     "fig07_frequency_response": _FIGURE,
 }
