@@ -54,7 +54,7 @@ def test_hopf_curve_of_the_reference(curves):
         along = np.sum(([c_A, c_T] - start) * (end - start), axis=1)
         share = np.clip(along / np.sum((end - start) ** 2, axis=1), 0.0, 1.0)
         foot = start + share[:, None] * (end - start)
-        assert np.hypot(*(foot - [c_A, c_T]).T).min() < 2e-3 * c_T  # chord of the drawn curve
+        assert np.hypot(*(foot - [c_A, c_T]).T).min() < 3e-3 * c_T  # chord of the drawn curve
         if row["freq_Hz"] and abs(c_T / 17125790.0 - 1) > 1e-3:  # a fold in c_A at the merging
             point = solve_hopf_point(paper(c_A=1.0001 * c_A, c_T=c_T, d_T=7500.0), True, "c_A")
             assert_allclose(point.values.c_A, c_A, rtol=2e-9)  # printed c_T: 0.01 N/m

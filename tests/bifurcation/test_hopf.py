@@ -97,12 +97,13 @@ def test_bautin_point_is_found_on_the_hopf_curve():
 
         def rhs(states, p):
             r2 = (states**2).sum(axis=1, keepdims=True)
-            return base.rhs(states, p) + p[1] * r2 * states
+            return base.rhs(states, p) + np.reshape(p[1], (-1, 1)) * r2 * states
 
         def jacobian(states, p):
             r2 = (states**2).sum(axis=1)[:, None, None]
             outer = states[:, :, None] * states[:, None, :]
-            return base.jacobian(states, p) + p[1] * (r2 * np.eye(2) + 2 * outer)
+            beta = np.reshape(p[1], (-1, 1, 1))
+            return base.jacobian(states, p) + beta * (r2 * np.eye(2) + 2 * outer)
 
         return type(base)(rhs, jacobian, 2, ("mu", "beta"))
 

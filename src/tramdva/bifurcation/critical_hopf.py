@@ -63,11 +63,10 @@ def total_jacobian_derivative(
     index: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """J' = J_p + (dJ/dx) x' and x' = -J^-1 f_p along the branch of equilibria, (n, n) and (n,)."""
-    f_p = system.rhs_parameter_derivative(state[None], parameters, index)[0]
+    f_p = system.rhs_parameter_derivatives(state, parameters, [index])[0]
     moved = np.linalg.solve(J, -f_p)
-    J_p = system.jacobian_parameter_derivative(state[None], parameters, index)[0]
-    J_x = system.jacobian_directional_derivative(state[None], parameters, moved)[0]
-    return J_p + J_x, moved
+    J_x, J_p = system.jacobian_derivatives(state, parameters, moved[None], [index])
+    return J_p[0] + J_x[0], moved
 
 
 @dataclass(frozen=True)
