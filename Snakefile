@@ -354,6 +354,7 @@ rule fig06_cycle_amplitudes:
 rule fig07_frequency_response:
     input:
         frequency_response=rules.frequency_response.output[0],
+        absorber_tuning=rules.absorber_tuning.output[0],
     output:
         pdf="paper_figures/{line}/fig07_frequency_response.pdf",
         png=report(
