@@ -71,6 +71,7 @@ rule all:
         expand("paper_figures/{line}/{figure}.pdf", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/table2_absorber_designs.csv", line=LINES),
+        expand("paper_figures/{line}/table2_absorber_designs.html", line=LINES),
     message:
         "all numbers, figures and tables"
 
@@ -381,8 +382,9 @@ rule table2_absorber_designs:
     input:
         absorber_tuning=rules.absorber_tuning.output[0],
     output:
-        report(
-            "paper_figures/{line}/table2_absorber_designs.csv",
+        table="paper_figures/{line}/table2_absorber_designs.csv",
+        page=report(
+            "paper_figures/{line}/table2_absorber_designs.html",
             category="Forced vibrations",
             caption="workflow/report/table2.rst",
             labels={"line": "{line}", "shows": "Table 2"},

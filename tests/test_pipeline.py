@@ -43,7 +43,7 @@ def test_table_of_designs(quick_run: Path) -> None:
         rows = list(csv.DictReader(file))
 
     assert len(rows) >= 4
-    assert {"design", "c_T (N/m)", "status"} <= set(rows[0])
+    assert {"design", "stiffness c_T (MN/m)", "status"} <= set(rows[0])
 
 
 def test_nothing_is_left_over(quick_run: Path) -> None:

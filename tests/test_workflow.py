@@ -94,7 +94,7 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
 def files_of(rule: str, line: str) -> list[str]:
     if rule in STAGES:
         return [f"results/{line}/{rule}.nc"]
-    kinds = ["csv"] if rule.startswith("table") else ["pdf", "png"]
+    kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
     return [f"paper_figures/{line}/{rule}.{kind}" for kind in kinds]
 
 
