@@ -35,7 +35,7 @@ MONOTONE = "white"
 NO_ABSORBER = "black"
 ONSET = "#C1121F"  # the red line of the critical Hopf points
 SPREAD = "cividis"  # for ordered values: its lightness is monotone, so it survives in grey
-DASHES = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), ":", (0, (8, 2)), (0, (2, 1)))
+DASHES = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1.5, 0.8)), (0, (8, 2)), (0, (3, 1)))
 MARKERS = "osD^vP"
 
 DESIGNS = {
