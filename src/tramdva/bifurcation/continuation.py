@@ -18,6 +18,9 @@ from scipy.optimize import brentq
 
 logger = logging.getLogger(__name__)
 
+# A walk that approaches its end stops within this share of the initial step before it.
+_APPROACH = 0.1
+
 
 class Curve(Protocol):
     """A solution curve as `trace` sees it; points are opaque."""
@@ -100,6 +103,7 @@ def trace(
     control: StepControl,
     stop: Callable[[Any], str | None] = lambda point: None,
     discard: frozenset[str] = frozenset(),
+    approach: frozenset[str] = frozenset(),
 ) -> Branch:
     """Walk along a solution curve.
 
@@ -115,6 +119,8 @@ def trace(
         Reason to end after a point, or None.
     discard : set of str
         Reasons for which the point itself is not part of the branch.
+    approach : set of str
+        Those of them for which shorter steps first come close to the end.
 
     Returns
     -------
@@ -138,6 +144,9 @@ def trace(
             continue
         reason = stop(new)
         if reason in discard:
+            if reason in approach and step > _APPROACH * control.initial:
+                step *= 0.5
+                continue
             branch.ended = reason
             return branch
         new_tests = curve.test_functions(new)

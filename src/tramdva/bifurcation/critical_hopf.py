@@ -256,7 +256,12 @@ def critical_hopf_curve(
     if first is None:
         return CriticalCurve([], np.empty((0, 3)), [], "no_convergence")
     branch = trace(
-        curve, first, control, lambda point: stop(point.z[-3:]), discard=frozenset({"window"})
+        curve,
+        first,
+        control,
+        lambda point: stop(point.z[-3:]),
+        discard=frozenset({"window"}),
+        approach=frozenset({"window"}),
     )
     return CriticalCurve(
         points=[equations.unpack(point.z, point.residual) for point in branch.points],

@@ -307,17 +307,24 @@ def follow(
         the last one before), ``window``, ``max_points``, ``no_convergence`` or ``sharp_turn``.
     """
     low, high = bounds
-    previous = [start.tangent.nodal]
+    last = [start.tangent.nodal]  # deviation of the last orbit of the branch
 
     def ends(cycle: LimitCycle) -> str | None:
         deviation = cycle.deviation()
-        before = previous[-1]
-        same_mesh = before.shape == deviation.shape
-        previous[:] = [deviation]
-        if same_mesh and np.sum(before * deviation) < 0.0:
-            return "hopf_point"
-        return None if low <= cycle.parameters[curve.index] <= high else "window"
+        if last[0].shape == deviation.shape and np.sum(last[0] * deviation) < 0.0:
+            return "hopf_point"  # the amplitude passed zero
+        if not low <= cycle.parameters[curve.index] <= high:
+            return "window"
+        last[:] = [deviation]
+        return None
 
-    branch = trace(curve, start, control, ends, discard=frozenset({"hopf_point", "window"}))
+    branch = trace(
+        curve,
+        start,
+        control,
+        ends,
+        discard=frozenset({"hopf_point", "window"}),
+        approach=frozenset({"window"}),
+    )
     del branch.points[0], branch.tests[0]
     return branch
