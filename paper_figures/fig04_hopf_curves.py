@@ -78,6 +78,8 @@ def draw_critical_points(
     inside = (critical["d_T"] >= drawn[0]) & (critical["d_T"] <= drawn[1])
     met = np.where(inside & (critical["branch"] == "upper"), critical["c_T"], np.nan)
     look = {"color": "black", "linewidth": 2.2, "label": "critical, at these $d_T$"}
+    if not np.isfinite(met).any():
+        return list(entries.values())
     axes.plot(critical["c_A"] / MEGA, met / MEGA, zorder=4, **look)
     return [figures.key(**look), *entries.values()]
 

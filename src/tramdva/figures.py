@@ -22,7 +22,6 @@ from matplotlib.text import Text
 
 from tramdva.results import atomically
 
-OPTIONS = {"pdf": {}, "png": {"pil_kwargs": {"optimize": True}}}
 SINGLE_COLUMN = 84.0  # mm
 DOUBLE_COLUMN = 174.0  # mm
 MEGA = 1e6
@@ -31,7 +30,7 @@ MILLI = 1e-3
 
 STABLE = "0.68"  # dark grey
 OSCILLATORY = "0.90"  # light grey
-MONOTONE = "white"
+MONOTONE = "0.45"
 NO_ABSORBER = "black"
 ONSET = "#C1121F"  # the red line of the critical Hopf points
 SPREAD = "cividis"  # for ordered values: its lightness is monotone, so it survives in grey
@@ -89,7 +88,7 @@ def save(figure: Figure, pdf: str | Path, png: str | Path, title: str) -> None:
     metadata = {"pdf": {"Title": title, "CreationDate": None}, "png": {"Title": title}}
     for path, kind in ((pdf, "pdf"), (png, "png")):
         with atomically(path) as part:
-            figure.savefig(part, format=kind, metadata=metadata[kind], **OPTIONS[kind])
+            figure.savefig(part, format=kind, metadata=metadata[kind])
 
 
 def letter(axes: Axes, name: str) -> Text:
@@ -161,7 +160,7 @@ def critical_pieces(critical: Mapping[str, np.ndarray]) -> Iterator[np.ndarray]:
     if rows.size == 0:
         return
     d_T, c_T = (critical[name] / critical[name].max() for name in ("d_T", "c_T"))
-    gaps = np.flatnonzero(np.hypot(np.diff(d_T), np.diff(c_T)) > 0.3) + 1
+    gaps = np.flatnonzero(np.hypot(np.diff(d_T), np.diff(c_T)) > 0.5) + 1
     for part in np.split(rows, gaps):
         for piece in pieces(critical["stabilises_all_c_A"][part]):
             yield part[piece]
