@@ -73,7 +73,7 @@ def draw_critical_points(
     for rows in figures.critical_pieces(critical):
         look = figures.critical_look(critical, rows) | {"linewidth": 0.8, "zorder": 4}
         axes.plot(critical["c_A"][rows] / MEGA, critical["c_T"][rows] / MEGA, **look)
-        words = look["label"].replace("critical", "critical, other $d_T$")
+        words = {"critical": "critical, other $d_T$"}.get(look["label"], look["label"])
         entries.setdefault(words, figures.key(**look | {"label": words}))
     inside = (critical["d_T"] >= drawn[0]) & (critical["d_T"] <= drawn[1])
     met = np.where(inside & (critical["branch"] == "upper"), critical["c_T"], np.nan)
