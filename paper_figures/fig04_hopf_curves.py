@@ -41,7 +41,7 @@ def draw(curves: dict[str, np.ndarray], critical: dict[str, np.ndarray]) -> Figu
     axes = figure.subplots()
     axes.set(xlabel="axle stiffness $c_A$ (MN/m)", ylabel="absorber stiffness $c_T$ (MN/m)")
     if not curves["c_A"].size:
-        figures.note(axes, "no Hopf point with any of these absorbers")
+        figures.nothing(axes, "no Hopf point with any of these absorbers")
         return figure
     entries = draw_curves(axes, curves)
     window = axes.get_xlim(), (0, 0.96 * curves["c_T"].max() / MEGA)

@@ -55,7 +55,7 @@ def draw(critical: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) -> Figu
             entries = draw_lines(axes, cycles, cycles[quantity] / unit)
             show_plain_numbers(axes)
         else:
-            figures.note(axes, no_cycles(critical, cycles))
+            figures.nothing(axes, no_cycles(critical, cycles))
     if entries:
         figures.legend_below(figure, entries, 4)
     return figure

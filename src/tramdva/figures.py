@@ -111,6 +111,13 @@ def note(axes: Axes, words: str, place: tuple[float, float] = (0.5, 0.5)) -> Tex
     )
 
 
+def nothing(axes: Axes, words: str) -> Text:
+    """Say in axes without data why there are none; scales would be invented."""
+    axes.set(xticks=[], yticks=[])
+    axes.minorticks_off()
+    return note(axes, words)
+
+
 def verbatim(label: str) -> str:
     """Return a label of the configuration so that no letter of it means mathematics."""
     return label.replace("$", r"\$")
