@@ -56,11 +56,14 @@ class SpecialPoint:
         Point on the curve.
     precision : float
         Arclength within which the zero lies.
+    after : int
+        Index of the point of the branch before it.
     """
 
     kind: str
     point: Any
     precision: float
+    after: int
 
 
 @dataclass
@@ -153,10 +156,11 @@ def trace(
         for kind, value in new_tests.items():
             if value * tests.get(kind, np.nan) < 0.0:
                 ends = (tests[kind], value)
-                located = _locate(
-                    curve, point, step, kind, lambda p, k=kind: curve.test_functions(p)[k], ends
+                located, precision = _locate(
+                    curve, point, step, lambda p, k=kind: curve.test_functions(p)[k], ends
                 )
-                branch.special.append(located)
+                after = len(branch.points) - 1
+                branch.special.append(SpecialPoint(kind, located, precision, after))
         branch.points.append(curve.record(new))
         branch.tests.append(new_tests)
         if reason is not None:
@@ -182,11 +186,13 @@ def _locate(
     curve: Curve,
     point: Any,
     step: float,
-    kind: str,
     test: Callable[[Any], float],
     ends: tuple[float, float],
-) -> SpecialPoint:
-    """Zero of a test function between a point and the one a step ahead, its values there given."""
+) -> tuple[Any, float]:
+    """Zero of a test function between a point and the one a step ahead, its values there given.
+
+    Returns the point and the arclength within which the zero lies.
+    """
     found = {0.0: (point, ends[0])}
 
     def along(length: float) -> float:
@@ -202,7 +208,7 @@ def _locate(
     precision = 1e-10 * step
     brentq(along, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
     best = min(found.values(), key=lambda pair: abs(pair[1]))
-    return SpecialPoint(kind, curve.record(best[0]), precision)
+    return curve.record(best[0]), precision
 
 
 @dataclass(frozen=True)
@@ -309,5 +315,6 @@ def sign_changes(
     for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
         step = float((points[i + 1].z - points[i].z) @ points[i].tangent)
         ends = (float(values[i]), float(values[i + 1]))
-        found.append(_locate(curve, points[i], step, kind, test, ends))
+        located, precision = _locate(curve, points[i], step, test, ends)
+        found.append(SpecialPoint(kind, located, precision, int(i)))
     return found
