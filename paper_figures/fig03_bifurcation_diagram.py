@@ -105,15 +105,11 @@ def draw_cycles(
 
 
 def branches(cycles: dict[str, np.ndarray], name: str) -> Iterator[tuple[np.ndarray, str]]:
-    """Rows and end of each branch of an absorber; it starts where its Hopf point is nearest."""
-    rows = np.flatnonzero(cycles["absorber"] == name)
-    here = cycles["branch_absorber"] == name
-    starts = [
-        np.argmin(np.abs(cycles["c_A"][rows] - c_A)) for c_A in cycles["branch_c_A"][here][1:]
-    ]
-    for part, ended in zip(np.split(rows, starts), cycles["branch_ended"][here], strict=False):
-        if part.size:
-            yield part, ended
+    """Rows and end of each branch of an absorber."""
+    for number in np.flatnonzero(cycles["branch_absorber"] == name):
+        rows = np.flatnonzero(cycles["cycle_branch"] == number)
+        if rows.size:
+            yield rows, cycles["branch_ended"][number]
 
 
 def closed(values: np.ndarray) -> np.ndarray:

@@ -83,6 +83,7 @@ def limit_cycles() -> dict[str, np.ndarray]:
     values = empty("limit_cycles", cycle=10, multiplier=6)
     values |= equilibria(stable=False) | {
         "absorber": np.full(10, "none"),
+        "cycle_branch": np.repeat([0, 1], 5),
         "c_A": c_A,
         "y_R_equilibrium": np.full(10, 1.4995),
         "y_R_max": 1.4995 + size,
@@ -134,6 +135,7 @@ def critical_curve() -> dict[str, np.ndarray]:
     safe = np.ones(n, bool)
     safe[[0, -1]] = False
     return values | {
+        "piece": np.array([0] * 9 + [1] * 4),
         "branch": np.array(["upper"] * 8 + ["lower"] * 5),
         "d_T": d_T,
         "c_T": c_T,

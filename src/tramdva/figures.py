@@ -150,8 +150,7 @@ def pieces(mask: np.ndarray) -> Iterator[slice]:
 def critical_pieces(critical: Mapping[str, np.ndarray]) -> Iterator[np.ndarray]:
     """Rows of connected pieces of the critical Hopf curve, each safe below or not at all.
 
-    The curve has no points where c_T would be negative; there it is cut, at a step far longer
-    than those of the continuation.
+    The curve has no points where c_T would be negative; there it is cut.
 
     Parameters
     ----------
@@ -163,12 +162,8 @@ def critical_pieces(critical: Mapping[str, np.ndarray]) -> Iterator[np.ndarray]:
     array of int
         Rows of one piece in their order along the curve.
     """
-    rows = np.arange(critical["d_T"].size)
-    if rows.size == 0:
-        return
-    d_T, c_T = (critical[name] / critical[name].max() for name in ("d_T", "c_T"))
-    gaps = np.flatnonzero(np.hypot(np.diff(d_T), np.diff(c_T)) > 0.5) + 1
-    for part in np.split(rows, gaps):
+    for number in np.unique(critical["piece"]):
+        part = np.flatnonzero(critical["piece"] == number)
         for piece in pieces(critical["stabilises_all_c_A"][part]):
             yield part[piece]
 
