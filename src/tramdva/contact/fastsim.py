@@ -178,7 +178,15 @@ def fastsim_forces(
         drive_x[j] = a * grid.half_length[j] * (rate_x - rate_spin * b * grid.offset[j])
         limit[j] = scale * grid.bound_across[j]
     force_x, force_y, moment_x, moment_y = _march(
-        grid, qx, qy, drive_x, limit, grid.strip_area, grid.half_length, grid.offset,
-        a * rate_y, a * a * rate_spin,
+        grid,
+        qx,
+        qy,
+        drive_x,
+        limit,
+        grid.strip_area,
+        grid.half_length,
+        grid.offset,
+        a * rate_y,
+        a * a * rate_spin,
     )
     return a * b * force_x, a * b * force_y, a * b * (a * moment_y - b * moment_x)

@@ -119,9 +119,7 @@ def damped_normal_force(elastic_force, penetration_rate, damping_time):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def penetration_of_force(
-    table, curvature_longitudinal, curvature_lateral, modulus, normal_force
-):
+def penetration_of_force(table, curvature_longitudinal, curvature_lateral, modulus, normal_force):
     """Penetration in m that carries `normal_force` in N (the inverse of `hertz_ellipse`)."""
     if normal_force <= 0.0:
         return 0.0
