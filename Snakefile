@@ -1,0 +1,400 @@
+"""The paper's table of contents: one rule per stage, one per figure, in the paper's order."""
+
+import os
+from functools import partial
+from pathlib import Path
+
+from tramdva import job
+from tramdva.config import load_or_exit, stage
+from tramdva.provenance import code_hash, numba_cache_folder
+
+ROOT = Path(workflow.current_basedir)
+SCRIPTS = ROOT / "workflow/scripts"
+FIGURES = ROOT / "paper_figures"
+STYLE = FIGURES / "tramdva.mplstyle"
+OWN_CONFIG = Path("config/config.yaml").is_file()
+
+settings = workflow.config_settings
+configuration = load_or_exit(
+    Path("config") if OWN_CONFIG else ROOT / "config",
+    settings.configfiles,
+    settings.config,
+)
+LINES = configuration.run.lines
+values = partial(stage, configuration)
+os.environ["NUMBA_CACHE_DIR"] = str(numba_cache_folder())
+
+
+report: "workflow/report/workflow.rst"
+
+
+wildcard_constraints:
+    line="|".join(LINES),
+
+
+onstart:
+    print(
+        f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
+    )
+
+
+onsuccess:
+    print(job.summary(LINES))
+
+
+onerror:
+    print("tramdva: not all results are complete; logs/<line>/<stage>.log says why.")
+
+
+STAGES = [
+    "stability_map",
+    "hopf_points",
+    "limit_cycles",
+    "hopf_curves",
+    "critical_hopf_curve",
+    "cycle_amplitudes",
+    "absorber_tuning",
+    "frequency_response",
+]
+PICTURES = [
+    "fig02_stability_map",
+    "fig03_bifurcation_diagram",
+    "fig04_hopf_curves",
+    "fig05_critical_hopf_curve",
+    "fig06_cycle_amplitudes",
+    "fig07_frequency_response",
+]
+
+
+rule all:
+    input:
+        expand("results/{line}/{stage}.nc", line=LINES, stage=STAGES),
+        expand("paper_figures/{line}/{figure}.pdf", line=LINES, figure=PICTURES),
+        expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
+        expand("paper_figures/{line}/table2_absorber_designs.csv", line=LINES),
+    message:
+        "all numbers, figures and tables"
+
+
+rule stability_map:
+    output:
+        "results/{line}/stability_map.nc",
+    log:
+        "logs/{line}/stability_map.log",
+    benchmark:
+        "logs/{line}/stability_map.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "stability_map"),
+        code=code_hash(SCRIPTS / "stability_map.py"),
+    message:
+        "{wildcards.line}: stability maps (figure 2)"
+    script:
+        "workflow/scripts/stability_map.py"
+
+
+rule hopf_points:
+    input:
+        stability_map=rules.stability_map.output[0],
+    output:
+        "results/{line}/hopf_points.nc",
+    log:
+        "logs/{line}/hopf_points.log",
+    benchmark:
+        "logs/{line}/hopf_points.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "hopf_points"),
+        code=code_hash(SCRIPTS / "hopf_points.py"),
+    message:
+        "{wildcards.line}: Hopf points (figure 3)"
+    script:
+        "workflow/scripts/hopf_points.py"
+
+
+rule limit_cycles:
+    input:
+        hopf_points=rules.hopf_points.output[0],
+    output:
+        "results/{line}/limit_cycles.nc",
+    log:
+        "logs/{line}/limit_cycles.log",
+    benchmark:
+        "logs/{line}/limit_cycles.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "limit_cycles"),
+        code=code_hash(SCRIPTS / "limit_cycles.py"),
+    message:
+        "{wildcards.line}: limit cycles (figure 3)"
+    script:
+        "workflow/scripts/limit_cycles.py"
+
+
+rule hopf_curves:
+    output:
+        "results/{line}/hopf_curves.nc",
+    log:
+        "logs/{line}/hopf_curves.log",
+    benchmark:
+        "logs/{line}/hopf_curves.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "hopf_curves"),
+        code=code_hash(SCRIPTS / "hopf_curves.py"),
+    message:
+        "{wildcards.line}: Hopf curves (figure 4)"
+    script:
+        "workflow/scripts/hopf_curves.py"
+
+
+rule critical_hopf_curve:
+    input:
+        hopf_curves=rules.hopf_curves.output[0],
+    output:
+        "results/{line}/critical_hopf_curve.nc",
+    log:
+        "logs/{line}/critical_hopf_curve.log",
+    benchmark:
+        "logs/{line}/critical_hopf_curve.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "critical_hopf_curve"),
+        code=code_hash(SCRIPTS / "critical_hopf_curve.py"),
+    message:
+        "{wildcards.line}: critical Hopf curve (figure 5)"
+    script:
+        "workflow/scripts/critical_hopf_curve.py"
+
+
+rule cycle_amplitudes:
+    input:
+        critical_hopf_curve=rules.critical_hopf_curve.output[0],
+    output:
+        "results/{line}/cycle_amplitudes.nc",
+    log:
+        "logs/{line}/cycle_amplitudes.log",
+    benchmark:
+        "logs/{line}/cycle_amplitudes.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "cycle_amplitudes"),
+        code=code_hash(SCRIPTS / "cycle_amplitudes.py"),
+    message:
+        "{wildcards.line}: cycle amplitudes (figure 6)"
+    script:
+        "workflow/scripts/cycle_amplitudes.py"
+
+
+rule absorber_tuning:
+    input:
+        critical_hopf_curve=rules.critical_hopf_curve.output[0],
+    output:
+        "results/{line}/absorber_tuning.nc",
+    log:
+        "logs/{line}/absorber_tuning.log",
+    benchmark:
+        "logs/{line}/absorber_tuning.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "absorber_tuning"),
+        code=code_hash(SCRIPTS / "absorber_tuning.py"),
+    message:
+        "{wildcards.line}: designs of the absorber (Table 2)"
+    script:
+        "workflow/scripts/absorber_tuning.py"
+
+
+rule frequency_response:
+    input:
+        absorber_tuning=rules.absorber_tuning.output[0],
+    output:
+        "results/{line}/frequency_response.nc",
+    log:
+        "logs/{line}/frequency_response.log",
+    benchmark:
+        "logs/{line}/frequency_response.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "frequency_response"),
+        code=code_hash(SCRIPTS / "frequency_response.py"),
+    message:
+        "{wildcards.line}: frequency response (figure 7)"
+    script:
+        "workflow/scripts/frequency_response.py"
+
+
+rule fig02_stability_map:
+    input:
+        stability_map=rules.stability_map.output[0],
+    output:
+        pdf="paper_figures/{line}/fig02_stability_map.pdf",
+        png=report(
+            "paper_figures/{line}/fig02_stability_map.png",
+            category="Stability",
+            caption="workflow/report/fig02.rst",
+            labels={"line": "{line}", "shows": "Figure 2"},
+        ),
+    log:
+        "logs/{line}/fig02_stability_map.log",
+    benchmark:
+        "logs/{line}/fig02_stability_map.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig02_stability_map"),
+        code=code_hash(FIGURES / "fig02_stability_map.py", STYLE),
+    message:
+        "{wildcards.line}: figure 2"
+    script:
+        "paper_figures/fig02_stability_map.py"
+
+
+rule fig03_bifurcation_diagram:
+    input:
+        hopf_points=rules.hopf_points.output[0],
+        limit_cycles=rules.limit_cycles.output[0],
+    output:
+        pdf="paper_figures/{line}/fig03_bifurcation_diagram.pdf",
+        png=report(
+            "paper_figures/{line}/fig03_bifurcation_diagram.png",
+            category="Self-excited vibrations",
+            caption="workflow/report/fig03.rst",
+            labels={"line": "{line}", "shows": "Figure 3"},
+        ),
+    log:
+        "logs/{line}/fig03_bifurcation_diagram.log",
+    benchmark:
+        "logs/{line}/fig03_bifurcation_diagram.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig03_bifurcation_diagram"),
+        code=code_hash(FIGURES / "fig03_bifurcation_diagram.py", STYLE),
+    message:
+        "{wildcards.line}: figure 3"
+    script:
+        "paper_figures/fig03_bifurcation_diagram.py"
+
+
+rule fig04_hopf_curves:
+    input:
+        hopf_curves=rules.hopf_curves.output[0],
+        critical_hopf_curve=rules.critical_hopf_curve.output[0],
+    output:
+        pdf="paper_figures/{line}/fig04_hopf_curves.pdf",
+        png=report(
+            "paper_figures/{line}/fig04_hopf_curves.png",
+            category="Self-excited vibrations",
+            caption="workflow/report/fig04.rst",
+            labels={"line": "{line}", "shows": "Figure 4"},
+        ),
+    log:
+        "logs/{line}/fig04_hopf_curves.log",
+    benchmark:
+        "logs/{line}/fig04_hopf_curves.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig04_hopf_curves"),
+        code=code_hash(FIGURES / "fig04_hopf_curves.py", STYLE),
+    message:
+        "{wildcards.line}: figure 4"
+    script:
+        "paper_figures/fig04_hopf_curves.py"
+
+
+rule fig05_critical_hopf_curve:
+    input:
+        critical_hopf_curve=rules.critical_hopf_curve.output[0],
+    output:
+        pdf="paper_figures/{line}/fig05_critical_hopf_curve.pdf",
+        png=report(
+            "paper_figures/{line}/fig05_critical_hopf_curve.png",
+            category="Self-excited vibrations",
+            caption="workflow/report/fig05.rst",
+            labels={"line": "{line}", "shows": "Figure 5"},
+        ),
+    log:
+        "logs/{line}/fig05_critical_hopf_curve.log",
+    benchmark:
+        "logs/{line}/fig05_critical_hopf_curve.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig05_critical_hopf_curve"),
+        code=code_hash(FIGURES / "fig05_critical_hopf_curve.py", STYLE),
+    message:
+        "{wildcards.line}: figure 5"
+    script:
+        "paper_figures/fig05_critical_hopf_curve.py"
+
+
+rule fig06_cycle_amplitudes:
+    input:
+        critical_hopf_curve=rules.critical_hopf_curve.output[0],
+        cycle_amplitudes=rules.cycle_amplitudes.output[0],
+    output:
+        pdf="paper_figures/{line}/fig06_cycle_amplitudes.pdf",
+        png=report(
+            "paper_figures/{line}/fig06_cycle_amplitudes.png",
+            category="Self-excited vibrations",
+            caption="workflow/report/fig06.rst",
+            labels={"line": "{line}", "shows": "Figure 6"},
+        ),
+    log:
+        "logs/{line}/fig06_cycle_amplitudes.log",
+    benchmark:
+        "logs/{line}/fig06_cycle_amplitudes.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig06_cycle_amplitudes"),
+        code=code_hash(FIGURES / "fig06_cycle_amplitudes.py", STYLE),
+    message:
+        "{wildcards.line}: figure 6"
+    script:
+        "paper_figures/fig06_cycle_amplitudes.py"
+
+
+rule fig07_frequency_response:
+    input:
+        frequency_response=rules.frequency_response.output[0],
+    output:
+        pdf="paper_figures/{line}/fig07_frequency_response.pdf",
+        png=report(
+            "paper_figures/{line}/fig07_frequency_response.png",
+            category="Forced vibrations",
+            caption="workflow/report/fig07.rst",
+            labels={"line": "{line}", "shows": "Figure 7"},
+        ),
+    log:
+        "logs/{line}/fig07_frequency_response.log",
+    benchmark:
+        "logs/{line}/fig07_frequency_response.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig07_frequency_response"),
+        code=code_hash(FIGURES / "fig07_frequency_response.py", STYLE),
+    message:
+        "{wildcards.line}: figure 7"
+    script:
+        "paper_figures/fig07_frequency_response.py"
+
+
+rule table2_absorber_designs:
+    input:
+        absorber_tuning=rules.absorber_tuning.output[0],
+    output:
+        report(
+            "paper_figures/{line}/table2_absorber_designs.csv",
+            category="Forced vibrations",
+            caption="workflow/report/table2.rst",
+            labels={"line": "{line}", "shows": "Table 2"},
+        ),
+    log:
+        "logs/{line}/table2_absorber_designs.log",
+    benchmark:
+        "logs/{line}/table2_absorber_designs.tsv"
+    threads: 1
+    params:
+        code=code_hash(FIGURES / "table2_absorber_designs.py"),
+    message:
+        "{wildcards.line}: Table 2"
+    script:
+        "paper_figures/table2_absorber_designs.py"

@@ -1,0 +1,29 @@
+"""Figure 5."""
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+from tramdva import job, results
+
+STYLE = Path(__file__).parent / "tramdva.mplstyle"
+
+
+def main(*, pdf: str, png: str, code: str, cfg: dict, critical_hopf_curve: str) -> None:
+    """Draw figure 5."""
+    plt.style.use(STYLE)
+    figure, axes = plt.subplots()
+    axes.set_title(cfg["label"] + str(len(results.read(critical_hopf_curve))))
+    for path in (pdf, png):
+        figure.savefig(path)
+
+
+if __name__ == "__main__":
+    with job.logging_to(snakemake.log[0]):
+        main(
+            pdf=snakemake.output.pdf,
+            png=snakemake.output.png,
+            code=snakemake.params.code,
+            cfg=snakemake.params.cfg,
+            critical_hopf_curve=snakemake.input.critical_hopf_curve,
+        )

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Set tramdva up once and run it; needs Python 3.11 and nothing else.
+
+    python3 run.py [...]         all figures and numbers; arguments go to snakemake
+    python3 run.py test [...]    the tests; arguments go to pytest
+    python3 run.py report        report.html with the figures that exist
+    python3 run.py setup         only set up
+
+The environment is .venv beside this file. `. .venv/bin/activate` and then `snakemake -j2` is
+the same as the first line.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+VENV = ROOT / ".venv"
+BIN = VENV / "bin"
+STAMP = VENV / "tramdva-stamp"
+LOCK = ROOT / "requirements.lock"
+PYTHON = (3, 11)
+
+
+class SetupError(Exception):
+    """What prevents the set-up, in a line for the user."""
+
+
+def main(arguments: list[str]) -> None:
+    """Set up where necessary, then become the program that the arguments ask for."""
+    if arguments[:1] in (["-h"], ["--help"], ["help"]):
+        print(__doc__)
+        return
+    if sys.version_info[:2] != PYTHON:
+        become_right_python(arguments)
+    os.chdir(ROOT)
+    if not is_set_up():
+        set_up()
+    if arguments != ["setup"]:
+        become(command(arguments))
+
+
+def command(arguments: list[str]) -> list[str]:
+    """Return the program, with its arguments, that the arguments of this one ask for."""
+    if arguments[:1] == ["test"]:
+        return ["pytest", *arguments[1:]]
+    if arguments[:1] == ["report"]:
+        return ["snakemake", "--report", "report.html", *arguments[1:]]
+    cores = re.compile(r"(-j|--jobs|-c|--cores)(=?\d+|=?all)?")
+    if any(cores.fullmatch(argument) for argument in arguments):
+        return ["snakemake", *arguments]
+    return ["snakemake", "-j2", *arguments]
+
+
+def become(program: list[str]) -> None:
+    """Replace this process by a program of the environment, so that signals reach it."""
+    environment = os.environ | {
+        "VIRTUAL_ENV": str(VENV),
+        "PATH": f"{BIN}{os.pathsep}{os.environ.get('PATH', os.defpath)}",
+    }
+    environment.pop("PYTHONHOME", None)
+    sys.stdout.flush()
+    os.execve(BIN / program[0], program, environment)
+
+
+def become_right_python(arguments: list[str]) -> None:
+    """Start again with Python 3.11 where another version was called."""
+    wanted = ".".join(map(str, PYTHON))
+    other = shutil.which(f"python{wanted}")
+    if other is None:
+        raise SetupError(f"tramdva needs Python {wanted}; this is {sys.version.split()[0]}")
+    os.execv(other, [other, str(Path(__file__).resolve()), *arguments])
+
+
+def stamp() -> str:
+    """Return what the environment must have been made from."""
+    digest = hashlib.sha256(f"{sys.version_info[:2]} {ROOT}".encode())
+    for name in ("run.py", "pyproject.toml", "requirements.lock"):
+        digest.update((ROOT / name).read_bytes())
+    return digest.hexdigest()
+
+
+def is_set_up() -> bool:
+    """Tell whether the environment is complete and current."""
+    return STAMP.is_file() and STAMP.read_text() == stamp() and (BIN / "python").exists()
+
+
+def set_up() -> None:
+    """Make the environment; the stamp comes last, so that a half-made one is recognised."""
+    print("tramdva: setting up .venv (once, about a minute)", flush=True)
+    STAMP.unlink(missing_ok=True)
+    if not works():
+        make_venv()
+    try:
+        install_with_uv()
+    except subprocess.CalledProcessError:
+        print("tramdva: uv failed; installing with pip instead", flush=True)
+        install_with_pip()
+    STAMP.write_text(stamp())
+
+
+def works() -> bool:
+    """Tell whether there is an environment with the right Python and pip."""
+    version = f"import pip, sys; sys.exit(sys.version_info[:2] != {PYTHON})"
+    try:
+        return subprocess.run([BIN / "python", "-c", version], capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+def make_venv() -> None:
+    """Make an empty environment, after installing what Debian leaves out of Python."""
+    if importlib.util.find_spec("ensurepip") is None:
+        install_debian_package("python3-venv")
+    run([sys.executable, "-m", "venv", "--clear", str(VENV)])
+
+
+def install_debian_package(name: str) -> None:
+    """Install a package with apt where that is possible, else say how."""
+    how = f"apt-get update && apt-get install -y {name}"
+    if os.geteuid() != 0 or shutil.which("apt-get") is None:
+        raise SetupError(f"Python's module venv is missing; run: sudo sh -c '{how}'")
+    run(["sh", "-c", how.replace("apt-get", "apt-get -qq")], DEBIAN_FRONTEND="noninteractive")
+
+
+def install_with_uv() -> None:
+    """Install exactly the lock file with uv, and the package itself."""
+    with tempfile.TemporaryDirectory() as folder:
+        only_uv = Path(folder) / "uv.txt"
+        only_uv.write_text(locked("uv", LOCK.read_text()))
+        pip("install", "--require-hashes", "--no-deps", "-r", str(only_uv))
+    environment = index_of_pip() | {"VIRTUAL_ENV": str(VENV)}
+    uv = [str(BIN / "uv"), "--quiet", "pip"]
+    run([*uv, "sync", "--require-hashes", "--compile-bytecode", str(LOCK)], **environment)
+    run(
+        [*uv, "install", "--offline", "--no-deps", "--no-build-isolation", "-e", "."], **environment
+    )
+
+
+def install_with_pip() -> None:
+    """Install exactly the lock file with pip, and the package itself."""
+    pip("install", "--require-hashes", "--no-deps", "--compile", "-r", str(LOCK))
+    pip("install", "--no-index", "--no-deps", "--no-build-isolation", "-e", ".")
+
+
+def locked(package: str, lock: str) -> str:
+    """Return the entry of one package in a lock file: its version and hashes."""
+    entry = re.search(rf"^{re.escape(package)}==.*(\n {{4}}--hash=.*)*$", lock, re.MULTILINE)
+    if entry is None:
+        raise SetupError(f"requirements.lock does not hold {package}")
+    return entry.group() + "\n"
+
+
+def index_of_pip() -> dict[str, str]:
+    """Return pip's configured sources of packages in the words of uv, which does not read them."""
+    listed = subprocess.run(
+        [BIN / "python", "-m", "pip", "config", "list"], capture_output=True, text=True, check=True
+    )
+    settings = pip_settings(listed.stdout.splitlines())
+    names = {
+        "index-url": "UV_DEFAULT_INDEX",
+        "extra-index-url": "UV_INDEX",
+        "find-links": "UV_FIND_LINKS",
+        "cert": "SSL_CERT_FILE",
+        "proxy": "ALL_PROXY",
+    }
+    found = {
+        theirs: settings[ours]
+        for ours, theirs in names.items()
+        if ours in settings and theirs not in os.environ
+    }
+    # The first source that knows a package need not have the locked version; hashes decide.
+    return {"UV_INDEX_STRATEGY": "unsafe-best-match"} | found
+
+
+def pip_settings(lines: list[str]) -> dict[str, str]:
+    """Read the output of `pip config list`; the environment comes first, then the command."""
+    ranks = {"global": 0, "install": 1, ":env:": 2}
+    settings: dict[str, str] = {}
+    for line in sorted(lines, key=lambda line: ranks.get(line.partition(".")[0], -1)):
+        name, _, value = line.partition("=")
+        section, _, key = name.partition(".")
+        if section in ranks:
+            settings[key] = " ".join(str(ast.literal_eval(value)).split())
+    return settings
+
+
+def pip(*arguments: str) -> None:
+    """Run pip of the environment."""
+    run([str(BIN / "python"), "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments])
+
+
+def run(program: list[str], **environment: str) -> None:
+    """Run a program of the set-up to its end."""
+    subprocess.run(program, check=True, env=os.environ | environment)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except SetupError as error:
+        sys.exit(str(error))
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"tramdva: set-up failed: {' '.join(map(str, error.cmd))}")
+    except KeyboardInterrupt:
+        sys.exit("tramdva: interrupted; the next start completes the set-up")

@@ -1,0 +1,1 @@
+"""Bifurcation analysis of smooth systems x' = f(x, p): Hopf points, curves and limit cycles."""

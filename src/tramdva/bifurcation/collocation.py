@@ -1,0 +1,420 @@
+"""Orthogonal collocation of periodic orbits: basis, mesh, and the bordered linear system.
+
+An orbit with the period T is a continuous piecewise polynomial u(tau), tau = t/T in [0, 1], of
+degree m on
+N intervals, held by its values at m + 1 equidistant nodes of each interval. It satisfies u' = T
+f(u, p) at the m Gauss points of each interval.
+
+References
+----------
+C. de Boor, B. Swartz, SIAM J. Numer. Anal. 10 (1973) 582-606; R. D. Russell, J. Christiansen,
+ibid. 15
+(1978) 59-80 (mesh); T. F. Fairgrieve, A. D. Jepson, ibid. 28 (1991) 1446-1462 (Floquet multipliers
+from the condensed matrix).
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numba
+import numpy as np
+from numpy.lib.stride_tricks import as_strided
+
+jit = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Lagrange basis of degree m on the unit interval, at the Gauss points.
+
+    Attributes
+    ----------
+    degree : int
+        m, number of Gauss points.
+    nodes : (m + 1,) array
+        Equidistant nodes.
+    gauss : (m,) array
+        Gauss points.
+    weights : (m,) array
+        Gauss weights, sum 1.
+    values, derivatives : (m, m + 1) array
+        Basis functions and their derivatives at the Gauss points.
+    mass : (m + 1, m + 1) array
+        Integrals of the products of two basis functions.
+    highest : (m + 1,) array
+        Coefficients that give the m-th derivative (constant on the interval).
+    """
+
+    degree: int
+    nodes: np.ndarray
+    gauss: np.ndarray
+    weights: np.ndarray
+    values: np.ndarray
+    derivatives: np.ndarray
+    mass: np.ndarray
+    highest: np.ndarray
+
+
+@cache
+def basis(degree: int) -> Basis:
+    """Basis of a degree."""
+    points, weights = np.polynomial.legendre.leggauss(degree)
+    gauss = 0.5 * (points + 1.0)
+    nodes = np.linspace(0.0, 1.0, degree + 1)
+    # Monomials about the centre: columns of `coefficients` are the basis polynomials.
+    coefficients = np.linalg.inv(np.vander(nodes - 0.5, increasing=True))
+    powers = np.arange(1, degree + 1)
+    derivative = np.vander(gauss - 0.5, degree, increasing=True) * powers
+    values = np.vander(gauss - 0.5, degree + 1, increasing=True) @ coefficients
+    return Basis(
+        degree=degree,
+        nodes=nodes,
+        gauss=gauss,
+        weights=0.5 * weights,
+        values=values,
+        mass=np.einsum("c,ci,ck->ik", 0.5 * weights, values, values),
+        derivatives=derivative @ coefficients[1:],
+        highest=coefficients[-1] * float(np.prod(powers)),
+    )
+
+
+def lagrange_values(base: Basis, positions: np.ndarray) -> np.ndarray:
+    """Basis functions at positions (k,) in the unit interval, (k, m + 1), in barycentric form."""
+    difference = positions[:, None] - base.nodes
+    exact = np.abs(difference) < 1e-14
+    binomial = base.highest  # barycentric weights up to a common factor
+    terms = binomial / np.where(exact, 1.0, difference)
+    values = terms / terms.sum(axis=1, keepdims=True)
+    return np.where(exact.any(axis=1, keepdims=True), exact.astype(float), values)
+
+
+def interval_values(nodal: np.ndarray, degree: int) -> np.ndarray:
+    """Nodal values (N m + 1, n) as overlapping intervals, a view (N, m + 1, n)."""
+    row, column = nodal.strides
+    shape = ((len(nodal) - 1) // degree, degree + 1, nodal.shape[1])
+    return as_strided(nodal, shape, (degree * row, row, column), writeable=False)
+
+
+def evaluate(mesh: np.ndarray, nodal: np.ndarray, degree: int, tau: np.ndarray) -> np.ndarray:
+    """Orbit at the times tau (k,) in [0, 1], (k, n)."""
+    base = basis(degree)
+    j = np.clip(np.searchsorted(mesh, tau, side="right") - 1, 0, len(mesh) - 2)
+    local = (tau - mesh[j]) / (mesh[j + 1] - mesh[j])
+    values = lagrange_values(base, local)
+    return np.einsum("ki,kin->kn", values, interval_values(nodal, degree)[j])
+
+
+def node_times(mesh: np.ndarray, degree: int) -> np.ndarray:
+    """Times of all nodes, (N m + 1,)."""
+    inner = mesh[:-1, None] + np.diff(mesh)[:, None] * basis(degree).nodes[:-1]
+    return np.append(inner.ravel(), mesh[-1])
+
+
+def error_monitor(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarray:
+    """Density of the local error: norm of the (m + 1)-th derivative to the power 1/(m + 1).
+
+    The derivative comes from the jumps of the m-th derivative at the mesh points, mean of both
+    sides.
+    """
+    h = np.diff(mesh)
+    nodal = nodal / np.maximum(
+        np.ptp(nodal, axis=0), 1e-300
+    )  # states count alike, whatever their size
+    highest = np.einsum("i,jin->jn", basis(degree).highest, interval_values(nodal, degree))
+    highest /= h[:, None] ** degree
+    spacing = 0.5 * (h + np.roll(h, 1))
+    jump = np.linalg.norm(highest - np.roll(highest, 1, axis=0), axis=1) / spacing
+    density = (0.5 * (jump + np.roll(jump, -1))) ** (1.0 / (degree + 1))
+    # A floor keeps intervals where the orbit is almost polynomial from growing without bound.
+    return np.maximum(density, 0.1 * (density @ h) + 1e-300)
+
+
+def equidistributed_mesh(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarray:
+    """Mesh of as many intervals on which each has the same share of the error monitor."""
+    share = np.append(0.0, np.cumsum(error_monitor(mesh, nodal, degree) * np.diff(mesh)))
+    new = np.interp(np.linspace(0.0, share[-1], len(mesh)), share, mesh)
+    new[0], new[-1] = mesh[0], mesh[-1]
+    return new
+
+
+def mesh_imbalance(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> float:
+    """Largest share of the error monitor over the mean; 1 on an equidistributed mesh."""
+    share = error_monitor(mesh, nodal, degree) * np.diff(mesh)
+    return float(share.max() / share.mean())
+
+
+@dataclass(frozen=True)
+class BorderedFactors:
+    """Factorised linear system of an orbit; see `factorise`."""
+
+    interval_lu: np.ndarray
+    interval_pivots: np.ndarray
+    chain_lu: np.ndarray
+    chain_pivots: np.ndarray
+    closing: np.ndarray
+    left: np.ndarray
+    right: np.ndarray
+
+
+def factorise(
+    base: Basis,
+    h: np.ndarray,
+    period: float,
+    J: np.ndarray,
+    f: np.ndarray,
+    f_p: np.ndarray,
+    phase: np.ndarray,
+    arc: np.ndarray,
+    arc_scalars: tuple[float, float],
+) -> BorderedFactors:
+    """Factorise the bordered collocation matrix.
+
+    Parameters
+    ----------
+    base : Basis
+        Degree m.
+    h : (N,) array
+        Mesh intervals.
+    period : float
+        T.
+    J : (N, m, n, n) array
+        Jacobian matrices at the Gauss points.
+    f, f_p : (N, m, n) array
+        Right-hand side and its derivative in the free parameter p there.
+    phase, arc : (N, m, n) array
+        Functions of the phase and the arclength row at the Gauss points.
+    arc_scalars : (float, float)
+        Entries of the arclength row for T and p.
+
+    Returns
+    -------
+    BorderedFactors
+        With ``left`` P and ``right`` Q, (n, n), of the condensed P u(0) + Q u(1) = 0.
+
+    Notes
+    -----
+    Per interval, the unknowns inside are eliminated; then the mesh points, from left to right,
+    with partial
+    pivoting; the periodic closure remains. The two border rows take part and are never pivots::
+
+        [ u_0  u_1  u_2 ...  u_N | T    p   ]
+        [ X    X                 | -f  -T f_p ]   interval 1 (u inside eliminated)
+        [      X    X            | -f  -T f_p ]   interval 2
+        [               X    X   | ...      ]
+        [ I                  -I  | .    .   ]   periodicity
+        [ integral  phase . u    | .    .   ]
+        [ integral  arc . u      | s_T  s_p ]
+    """
+    interval_lu, interval_pivots = _eliminate_intervals(
+        base.values, base.derivatives, base.weights, h, period, J, f, f_p, phase, arc
+    )
+    n = J.shape[2]
+    chain_lu, chain_pivots, last = _eliminate_chain(interval_lu, n)
+    left, right = last[:n, :n], last[:n, n : 2 * n]
+    closing = np.hstack([last[:, :n] + last[:, n : 2 * n], last[:, 2 * n :]])  # u(0) = u(1)
+    closing[-1, -2:] += arc_scalars
+    return BorderedFactors(
+        interval_lu, interval_pivots, chain_lu, chain_pivots, closing, left, right
+    )
+
+
+def solve(
+    factors: BorderedFactors, residual: np.ndarray, border: tuple[float, float]
+) -> tuple[np.ndarray, float, float]:
+    """Solution of the bordered system.
+
+    Parameters
+    ----------
+    factors : BorderedFactors
+        From `factorise`.
+    residual : (N, m, n) array
+        Right-hand side of the collocation equations.
+    border : (float, float)
+        Right-hand sides of the phase and the arclength row.
+
+    Returns
+    -------
+    tuple
+        Nodal values (N m + 1, n), T and p.
+    """
+    N, m, n = residual.shape
+    rhs, chain, last = _forward(
+        factors.interval_lu,
+        factors.interval_pivots,
+        factors.chain_lu,
+        factors.chain_pivots,
+        residual.reshape(N, m * n),
+        np.array(border, float),
+    )
+    closing = np.linalg.solve(factors.closing, last)
+    nodal = _backward(factors.interval_lu, factors.chain_lu, rhs, chain, closing, m)
+    return nodal, float(closing[n]), float(closing[n + 1])
+
+
+@jit
+def _factor_columns(a, pivots, columns, rows):
+    """Gaussian elimination of the first columns; pivots among the first rows.
+
+    Multipliers stay below the diagonal, in the row order of their own step: `_forward_columns`
+    swaps and subtracts in turn.
+    """
+    height, width = a.shape
+    for k in range(columns):
+        best, size = k, abs(a[k, k])
+        for i in range(k + 1, rows):
+            if abs(a[i, k]) > size:
+                best, size = i, abs(a[i, k])
+        pivots[k] = best
+        if best != k:
+            for j in range(k, width):
+                a[k, j], a[best, j] = a[best, j], a[k, j]
+        inverse = 1.0 / a[k, k]
+        for i in range(k + 1, height):
+            factor = a[i, k] * inverse
+            a[i, k] = factor
+            if factor != 0.0:
+                for j in range(k + 1, width):
+                    a[i, j] -= factor * a[k, j]
+
+
+@jit
+def _forward_columns(a, pivots, columns, b):
+    """Apply the elimination of `_factor_columns` to a right-hand side."""
+    for k in range(columns):
+        best = pivots[k]
+        if best != k:
+            b[k], b[best] = b[best], b[k]
+        value = b[k]
+        if value != 0.0:
+            for i in range(k + 1, a.shape[0]):
+                b[i] -= a[i, k] * value
+
+
+@jit
+def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, phase, arc):
+    """Assemble and condense each interval; columns: inside, left, right, T, p; two border rows."""
+    N, m, n = f.shape
+    inside = n * (m - 1)
+    rows = n * m
+    lu = np.zeros((N, rows + 2, inside + 2 * n + 2))
+    pivots = np.empty((N, inside), np.int64)
+    for j in range(N):
+        a = lu[j]
+        for c in range(m):
+            for i in range(m + 1):
+                column = inside if i == 0 else (inside + n if i == m else n * (i - 1))
+                d, v = derivatives[c, i] / h[j], period * values[c, i]
+                weight = weights[c] * h[j] * values[c, i]
+                for r in range(n):
+                    for s in range(n):
+                        a[c * n + r, column + s] = -v * J[j, c, r, s]
+                    a[c * n + r, column + r] += d
+                    a[rows, column + r] += weight * phase[j, c, r]
+                    a[rows + 1, column + r] += weight * arc[j, c, r]
+            for r in range(n):
+                a[c * n + r, inside + 2 * n] = -f[j, c, r]
+                a[c * n + r, inside + 2 * n + 1] = -period * f_p[j, c, r]
+        _factor_columns(a, pivots[j], inside, rows)
+    return lu, pivots
+
+
+@jit
+def _copy_block(target, row, column, source, source_row, source_column, rows, columns):
+    for i in range(rows):
+        for j in range(columns):
+            target[row + i, column + j] = source[source_row + i, source_column + j]
+
+
+@jit
+def _eliminate_chain(lu, n):
+    """Eliminate the mesh points between the ends; columns: middle, first, next, T, p.
+
+    The running rows have the columns first, current, T, p; the blocks of `lu` left, right, T, p.
+    """
+    N, height, width = lu.shape
+    inside = width - 2 * n - 2
+    top = height - n - 2
+    chain = np.zeros((max(N - 1, 0), 2 * n + 2, 3 * n + 2))
+    pivots = np.empty((max(N - 1, 0), n), np.int64)
+    running = np.empty((n + 2, 2 * n + 2))
+    _copy_block(running, 0, 0, lu[0], top, inside, n + 2, 2 * n + 2)
+    for j in range(1, N):
+        a, block = chain[j - 1], lu[j]
+        for first, last, row in ((0, n, 0), (n, n + 2, 2 * n)):
+            _copy_block(a, row, 0, running, first, n, last - first, n)
+            _copy_block(a, row, n, running, first, 0, last - first, n)
+            _copy_block(a, row, 3 * n, running, first, 2 * n, last - first, 2)
+        for i in range(n + 2):
+            for k in range(2 * n + 2):
+                column = k if k < n else k + n
+                a[n + i, column] += block[top + i, inside + k]
+        _factor_columns(a, pivots[j - 1], n, 2 * n)
+        _copy_block(running, 0, 0, a, n, n, n + 2, 2 * n + 2)
+    return chain, pivots, running
+
+
+@jit
+def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
+    """Forward elimination of the right-hand side through intervals, chain and closure."""
+    N, height, _ = lu.shape
+    inside = pivots.shape[1]
+    rows = height - 2
+    n = rows - inside
+    rhs = np.zeros((N, height))
+    chain = np.zeros((max(N - 1, 0), 2 * n + 2))
+    running = np.empty(n + 2)
+    for j in range(N):
+        for i in range(rows):
+            rhs[j, i] = residual[j, i]
+        _forward_columns(lu[j], pivots[j], inside, rhs[j])
+        if j > 0:
+            b = chain[j - 1]
+            for i in range(n):
+                b[i] = running[i]
+            for i in range(n + 2):
+                b[n + i] = rhs[j, inside + i]
+            for i in range(n, n + 2):
+                b[n + i] += running[i]
+            _forward_columns(chain_lu[j - 1], chain_pivots[j - 1], n, b)
+        source = rhs[0, inside:] if j == 0 else chain[j - 1, n:]
+        for i in range(n + 2):
+            running[i] = source[i]
+    for i in range(2):
+        running[n + i] += border[i]
+    return rhs, chain, running
+
+
+@jit
+def _backward(lu, chain_lu, rhs, chain, closing, m):
+    """Back substitution: mesh points from right to left, then the nodes inside the intervals."""
+    N = lu.shape[0]
+    n = closing.shape[0] - 2
+    inside = n * (m - 1)
+    nodal = np.empty((N * m + 1, n))
+    for k in range(n):
+        nodal[0, k] = nodal[N * m, k] = closing[k]
+    tail = closing[n:]
+    for j in range(N - 1, 0, -1):
+        a, b = chain_lu[j - 1], chain[j - 1]
+        for k in range(n - 1, -1, -1):
+            value = b[k] - a[k, 3 * n] * tail[0] - a[k, 3 * n + 1] * tail[1]
+            for s in range(k + 1, n):
+                value -= a[k, s] * nodal[j * m, s]
+            for s in range(n):
+                value -= a[k, n + s] * nodal[0, s] + a[k, 2 * n + s] * nodal[(j + 1) * m, s]
+            nodal[j * m, k] = value / a[k, k]
+    x = np.empty(inside)
+    for j in range(N):
+        a = lu[j]
+        for k in range(inside - 1, -1, -1):
+            value = rhs[j, k]
+            for s in range(k + 1, inside):
+                value -= a[k, s] * x[s]
+            for s in range(n):
+                value -= a[k, inside + s] * nodal[j * m, s]
+                value -= a[k, inside + n + s] * nodal[(j + 1) * m, s]
+            value -= a[k, inside + 2 * n] * tail[0] + a[k, inside + 2 * n + 1] * tail[1]
+            x[k] = value / a[k, k]
+        for i in range(inside):
+            nodal[j * m + 1 + i // n, i % n] = x[i]
+    return nodal

@@ -1,0 +1,279 @@
+"""Pseudo-arclength continuation: predictor, corrector, event location, record.
+
+`trace` walks along any solution curve that offers the operations of `Curve`; `AlgebraicCurve`
+offers them for N equations in N + 1 unknowns.
+
+References
+----------
+H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems, 1977.
+"""
+
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from scipy.optimize import brentq
+
+logger = logging.getLogger(__name__)
+
+
+class Curve(Protocol):
+    """A solution curve as `trace` sees it; points are opaque."""
+
+    def predict(self, point: Any, step: float) -> Any:
+        """Point at arclength `step` along the tangent, not yet on the curve."""
+
+    def correct(self, predicted: Any) -> tuple[Any | None, int]:
+        """Point on the curve beside the prediction (None if that fails), iterations it took."""
+
+    def test_functions(self, point: Any) -> Mapping[str, float]:
+        """Functions whose sign changes mark special points, by kind."""
+
+    def turning(self, point: Any, new: Any) -> float:
+        """Cosine of the angle between the tangents of two points."""
+
+    def prepare(self, point: Any) -> Any:
+        """The point as the next step should start from it (an adapted mesh, say)."""
+
+    def record(self, point: Any) -> Any:
+        """The point as the branch keeps it, without what only the next step needs."""
+
+
+@dataclass(frozen=True)
+class SpecialPoint:
+    """A located zero of a test function.
+
+    Attributes
+    ----------
+    kind : str
+        Name of the test function.
+    point : Any
+        Point on the curve.
+    precision : float
+        Arclength within which the zero lies.
+    """
+
+    kind: str
+    point: Any
+    precision: float
+
+
+@dataclass
+class Branch:
+    """Points in order with their test functions, special points, and why the walk ended."""
+
+    points: list[Any] = field(default_factory=list)
+    tests: list[Mapping[str, float]] = field(default_factory=list)
+    special: list[SpecialPoint] = field(default_factory=list)
+    ended: str = ""
+
+
+@dataclass(frozen=True)
+class StepControl:
+    """Arclength steps.
+
+    Attributes
+    ----------
+    initial, smallest, largest : float
+        Arclengths in the scaled variables of the curve.
+    max_points : int
+        Points after which the walk ends.
+    min_cosine : float
+        A step that turns the tangent by more is repeated with half the length.
+    comfortable_iterations : int
+        Steps grow while the corrector needs no more, and shrink where it needs twice as many.
+    """
+
+    initial: float
+    smallest: float
+    largest: float
+    max_points: int
+    min_cosine: float = 0.9
+    comfortable_iterations: int = 3
+
+
+def trace(
+    curve: Curve,
+    start: Any,
+    control: StepControl,
+    stop: Callable[[Any], str | None] = lambda point: None,
+    discard: frozenset[str] = frozenset(),
+) -> Branch:
+    """Walk along a solution curve.
+
+    Parameters
+    ----------
+    curve : Curve
+        What to walk along.
+    start : point of the curve
+        With a tangent in the direction to go.
+    control : StepControl
+        Steps.
+    stop : callable
+        Reason to end after a point, or None.
+    discard : set of str
+        Reasons for which the point itself is not part of the branch.
+
+    Returns
+    -------
+    Branch
+        ``ended`` is the reason of `stop`, ``max_points`` or ``no_convergence``.
+    """
+    step, point = control.initial, start
+    tests = curve.test_functions(start)
+    branch = Branch(points=[start], tests=[tests])
+    while len(branch.points) < control.max_points:
+        new, iterations = curve.correct(curve.predict(point, step))
+        cosine = -1.0 if new is None else curve.turning(point, new)
+        if cosine < control.min_cosine:
+            if step <= control.smallest:
+                branch.ended = "no_convergence" if new is None else "sharp_turn"
+                logger.warning(
+                    "continuation ended after %d points: %s", len(branch.points), branch.ended
+                )
+                return branch
+            step = max(0.5 * step, control.smallest)
+            continue
+        reason = stop(new)
+        if reason in discard:
+            branch.ended = reason
+            return branch
+        new_tests = curve.test_functions(new)
+        for kind, value in new_tests.items():
+            if value * tests.get(kind, np.nan) < 0.0:
+                branch.special.append(_locate(curve, point, step, kind, tests[kind], value))
+        branch.points.append(curve.record(new))
+        branch.tests.append(new_tests)
+        if reason is not None:
+            branch.ended = reason
+            return branch
+        step = _next_step(step, iterations, cosine, control)
+        point = curve.prepare(new)
+        tests = new_tests
+    branch.ended = "max_points"
+    return branch
+
+
+def _next_step(step: float, iterations: int, cosine: float, control: StepControl) -> float:
+    comfortable = cosine > 1.0 - 0.3 * (1.0 - control.min_cosine)
+    if iterations <= control.comfortable_iterations and comfortable:
+        step *= 1.5
+    elif iterations >= 2 * control.comfortable_iterations:
+        step *= 0.6
+    return min(max(step, control.smallest), control.largest)
+
+
+def _locate(
+    curve: Curve, point: Any, step: float, kind: str, at_start: float, at_end: float
+) -> SpecialPoint:
+    """Zero of a test function between a point and the one a step ahead."""
+    found = {0.0: (point, at_start)}
+
+    def test(length: float) -> float:
+        if length == 0.0:
+            return at_start
+        candidate, _ = curve.correct(curve.predict(point, length))
+        if candidate is None:  # keep the bracket: treat like its nearer end
+            return at_start if length < 0.5 * step else at_end
+        value = curve.test_functions(candidate)[kind]
+        found[length] = (candidate, value)
+        return value
+
+    precision = 1e-10 * step
+    brentq(test, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
+    best = min(found.values(), key=lambda pair: abs(pair[1]))
+    return SpecialPoint(kind, curve.record(best[0]), precision)
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """A solution z (N + 1,), its unit tangent, the residual before Newton's last step."""
+
+    z: np.ndarray
+    tangent: np.ndarray
+    residual: float
+
+
+class AlgebraicCurve:
+    """Curve G(z) = 0 of N equations in N + 1 unknowns.
+
+    Parameters
+    ----------
+    residual : callable
+        G(z), (N,).
+    derivative : callable
+        dG/dz, (N, N + 1).
+    tests : callable, optional
+        Test functions of a `CurvePoint`.
+    tolerance : float
+        Largest component of G at a solution.
+    max_iterations : int
+        Newton iterations.
+    """
+
+    def __init__(
+        self,
+        residual: Callable[[np.ndarray], np.ndarray],
+        derivative: Callable[[np.ndarray], np.ndarray],
+        tests: Callable[[CurvePoint], Mapping[str, float]] = lambda point: {},
+        tolerance: float = 1e-10,
+        max_iterations: int = 8,
+    ) -> None:
+        self._residual, self._derivative, self._tests = residual, derivative, tests
+        self._tolerance, self._max_iterations = tolerance, max_iterations
+
+    def start(self, z: np.ndarray, direction: np.ndarray) -> CurvePoint | None:
+        """Solution near z, with the tangent that has a positive product with `direction`."""
+        guess = CurvePoint(np.array(z, float), direction / np.linalg.norm(direction), np.inf)
+        return self.correct(guess)[0]
+
+    def predict(self, point: CurvePoint, step: float) -> CurvePoint:
+        """Step along the tangent."""
+        return CurvePoint(point.z + step * point.tangent, point.tangent, np.inf)
+
+    def correct(self, predicted: CurvePoint) -> tuple[CurvePoint | None, int]:
+        """Newton in the hyperplane through the prediction, orthogonal to its tangent.
+
+        The linear system is ::
+
+            [ dG/dz ]        [ -G ]
+            [ t^T   ] dz  =  [  0 ]
+        """
+        z, t = predicted.z, predicted.tangent
+        for iteration in range(self._max_iterations + 1):
+            G = self._residual(z)
+            matrix = np.vstack([self._derivative(z), t])
+            if not np.isfinite(matrix).all() or not np.isfinite(G).all():
+                return None, iteration
+            # Both the Newton step and the new tangent from one factorisation.
+            rhs = np.zeros((len(z), 2))
+            rhs[:-1, 0] = -G
+            rhs[-1, 1] = 1.0
+            try:
+                solution = np.linalg.solve(matrix, rhs)
+            except np.linalg.LinAlgError:
+                return None, iteration
+            size = np.abs(G).max()
+            if size <= self._tolerance:
+                tangent = solution[:, 1] / np.linalg.norm(solution[:, 1])
+                return CurvePoint(z + solution[:, 0], tangent, float(size)), iteration
+            z = z + solution[:, 0]
+        return None, self._max_iterations
+
+    def test_functions(self, point: CurvePoint) -> Mapping[str, float]:
+        """Test functions given at construction."""
+        return self._tests(point)
+
+    def turning(self, point: CurvePoint, new: CurvePoint) -> float:
+        """Cosine between the tangents."""
+        return float(point.tangent @ new.tangent)
+
+    def prepare(self, point: CurvePoint) -> CurvePoint:
+        """Nothing to prepare."""
+        return point
+
+    def record(self, point: CurvePoint) -> CurvePoint:
+        """Nothing to leave out."""
+        return point

@@ -1,0 +1,112 @@
+"""Smooth dynamical systems x' = f(x, p) and their derivatives."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+_COMPLEX_STEP = 1e-30
+
+
+@dataclass(frozen=True)
+class DynamicalSystem:
+    """A smooth system x' = f(x, p) with its Jacobian matrix.
+
+    Both functions take many states at once and must accept complex arguments (be analytic in x and
+    p): all further derivatives are complex steps, exact to rounding.
+
+    Attributes
+    ----------
+    rhs : callable
+        ``rhs(states (m, n), parameters (q,)) -> (m, n)``.
+    jacobian : callable
+        ``jacobian(states (m, n), parameters (q,)) -> (m, n, n)``, ``[i, j, k] = df_j/dx_k`` at
+        state i.
+    dimension : int
+        Number n of states.
+    parameter_names : tuple of str
+        Names of the q parameters.
+    """
+
+    rhs: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    jacobian: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    dimension: int
+    parameter_names: tuple[str, ...]
+
+    def index(self, parameter: str) -> int:
+        """Position of a parameter in the vector p."""
+        return self.parameter_names.index(parameter)
+
+    def rhs_parameter_derivative(
+        self, states: np.ndarray, parameters: np.ndarray, index: int
+    ) -> np.ndarray:
+        """df/dp_index at every state, (m, n)."""
+        return self.rhs(states, _step(parameters, index)).imag / _COMPLEX_STEP
+
+    def jacobian_parameter_derivative(
+        self, states: np.ndarray, parameters: np.ndarray, index: int
+    ) -> np.ndarray:
+        """dJ/dp_index at every state, (m, n, n)."""
+        return self.jacobian(states, _step(parameters, index)).imag / _COMPLEX_STEP
+
+    def jacobian_directional_derivative(
+        self, states: np.ndarray, parameters: np.ndarray, direction: np.ndarray
+    ) -> np.ndarray:
+        """d/ds J(x + s direction) at s = 0, (m, n, n); direction (n,) or (m, n), real.
+
+        Since second derivatives commute, column k is also d/dx_k (J direction).
+        """
+        return (
+            self.jacobian(states + 1j * _COMPLEX_STEP * direction, parameters).imag / _COMPLEX_STEP
+        )
+
+
+def _step(parameters: np.ndarray, index: int) -> np.ndarray:
+    stepped = np.array(parameters, dtype=complex)
+    stepped[index] += 1j * _COMPLEX_STEP
+    return stepped
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """Affine change of variables: x = origin + state * xi, t = time * tau, p = parameters * pi."""
+
+    origin: np.ndarray
+    state: np.ndarray
+    time: float
+    parameters: np.ndarray
+
+    def to_states(self, scaled: np.ndarray) -> np.ndarray:
+        """States (..., n) from scaled states."""
+        return self.origin + self.state * scaled
+
+    def from_states(self, states: np.ndarray) -> np.ndarray:
+        """Scaled states from states (..., n)."""
+        return (states - self.origin) / self.state
+
+
+def rescaled(system: DynamicalSystem, scaling: Scaling) -> DynamicalSystem:
+    """The same system in scaled variables.
+
+    Parameters
+    ----------
+    system : DynamicalSystem
+        System in physical units.
+    scaling : Scaling
+        Scales, each of the physical unit.
+
+    Returns
+    -------
+    DynamicalSystem
+        d(xi)/d(tau) = (time / state) f(origin + state xi, parameters pi).
+    """
+    rate = scaling.time / scaling.state
+    matrix = rate[:, None] * scaling.state
+
+    def rhs(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
+        return rate * system.rhs(scaling.to_states(states), parameters * scaling.parameters)
+
+    def jacobian(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
+        return matrix * system.jacobian(scaling.to_states(states), parameters * scaling.parameters)
+
+    return DynamicalSystem(rhs, jacobian, system.dimension, system.parameter_names)

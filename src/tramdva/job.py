@@ -1,0 +1,63 @@
+"""Run a job: its output into a log file, one line to the terminal where it fails."""
+
+from __future__ import annotations
+
+import csv
+import logging
+import os
+import sys
+import traceback
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+
+@contextmanager
+def logging_to(path: str | Path) -> Iterator[None]:
+    """Send all output of the block to a log file.
+
+    An exception is written to the log with its traceback and to the terminal as one line; it
+    ends the program with exit code 1.
+
+    Parameters
+    ----------
+    path : path
+        The log file.
+    """
+    terminal = os.dup(2)
+    with Path(path).open("w", buffering=1, encoding="utf-8") as log:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os.dup2(log.fileno(), 1)
+        os.dup2(log.fileno(), 2)
+        logging.basicConfig(
+            level=logging.INFO, stream=log, format="%(name)s: %(message)s", force=True
+        )
+        logging.captureWarnings(True)
+        try:
+            yield
+        except Exception as error:
+            traceback.print_exc(file=log)
+            reason = " ".join(str(error).split()) or "no reason given"
+            os.write(terminal, f"{type(error).__name__}: {reason} (see {path})\n".encode())
+            raise SystemExit(1) from None
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+
+
+def summary(lines: Sequence[str], folder: Path = Path("logs")) -> str:
+    """Tell where the results are and how long each job of each line took."""
+    rows = [
+        f"  {seconds:7.1f} s  {line}/{stage}"
+        for line in lines
+        for stage, seconds in _durations(folder / line)
+    ]
+    return "\n".join(["tramdva: results/ and paper_figures/ are complete.", *rows])
+
+
+def _durations(folder: Path) -> Iterator[tuple[str, float]]:
+    for path in sorted(folder.glob("*.tsv"), key=lambda path: path.stat().st_mtime_ns):
+        with path.open(encoding="utf-8") as table:
+            for row in csv.DictReader(table, delimiter="\t"):
+                yield path.stem, float(row["s"])

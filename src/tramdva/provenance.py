@@ -1,0 +1,165 @@
+"""What the code of a stage is: the hash of everything that can change its results."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import hashlib
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent
+REGISTRY = "tramdva.registry"  # of its table, only the entry of the stage counts
+WITHOUT_EFFECT = frozenset({"tramdva.job"})  # modules that cannot change a result
+UNUSED_AFTER = 30 * 86400  # seconds after which a folder of compiled code is removed
+
+
+def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) -> str:
+    """Hash the code that a script reaches.
+
+    Counted are the syntax trees, without docstrings, of the script and of each module of tramdva
+    that it imports, directly or through others. Comments, formatting and dates do not matter.
+
+    Parameters
+    ----------
+    script : path
+        A script; its stem is the name of its stage.
+    *data : path
+        Files whose bytes count as well, such as a style sheet.
+    package : Path, optional
+        Folder of the package.
+
+    Returns
+    -------
+    str
+        20 hexadecimal digits.
+    """
+    script = Path(script)
+    digest = hashlib.sha256(_tree_hash(script))
+    for name in sorted(_reached(script, package)):
+        stage = script.stem if name == REGISTRY else ""
+        digest.update(name.encode() + _tree_hash(_file(name, package), stage))
+    for path in data:
+        digest.update(Path(path).read_bytes())
+    return digest.hexdigest()[:20]
+
+
+def numba_cache_folder(package: Path = PACKAGE) -> Path:
+    """Return the folder for compiled code that belongs to exactly these sources.
+
+    Numba does not notice that a function in another file changed; a folder named by the hash of
+    all sources does. It is below NUMBA_CACHE_DIR or else in the cache of the user or, where that
+    cannot be written, in the working directory. Folders that were unused for long are removed.
+    """
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*.py")):
+        digest.update(str(path.relative_to(package)).encode() + path.read_bytes())
+    name = f"sources-{digest.hexdigest()[:20]}"
+    for root in _cache_roots():
+        folder = root if root.name == name else root / name
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            os.utime(folder)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            _remove_unused(folder)
+            return folder
+    return folder
+
+
+def _cache_roots() -> Iterator[Path]:
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        path = Path(given)
+        yield path.parent if path.name.startswith("sources-") else path
+    home = os.environ.get("XDG_CACHE_HOME") or Path("~").expanduser() / ".cache"
+    yield Path(home) / "tramdva"
+    yield Path.cwd() / ".snakemake" / "tramdva"
+
+
+def _remove_unused(current: Path) -> None:
+    for folder in current.parent.glob("sources-*"):
+        try:
+            if folder != current and folder.stat().st_mtime < time.time() - UNUSED_AFTER:
+                for file in sorted(folder.rglob("*"), reverse=True):
+                    file.rmdir() if file.is_dir() else file.unlink()
+                folder.rmdir()
+        except OSError:
+            continue
+
+
+def _reached(script: Path, package: Path) -> set[str]:
+    """Names of all modules that a script imports, directly or through others."""
+    reached: set[str] = set()
+    waiting = list(_imported(script, package))
+    while waiting:
+        name = waiting.pop()
+        if name not in reached and name not in WITHOUT_EFFECT:
+            reached.add(name)
+            waiting += _imported(_file(name, package), package)
+    return reached
+
+
+def _imported(path: Path, package: Path) -> Iterator[str]:
+    for name in _absolute_imports(path):
+        parts = name.split(".")
+        modules = [".".join(parts[:end]) for end in range(1, len(parts) + 1)]
+        files = [module for module in modules if _file(module, package).is_file()]
+        if len(files) < min(2, len(parts)):
+            raise ValueError(f"{path}: there is no module {name}")
+        yield from files
+
+
+def _file(module: str, package: Path) -> Path:
+    path = package.joinpath(*module.split(".")[1:])
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def _absolute_imports(path: Path) -> tuple[str, ...]:
+    status = path.stat()
+    return _parsed(path, status.st_mtime_ns, status.st_size, "")[0]
+
+
+def _tree_hash(path: Path, stage: str = "") -> bytes:
+    status = path.stat()
+    return _parsed(path, status.st_mtime_ns, status.st_size, stage)[1]
+
+
+@functools.cache
+def _parsed(path: Path, mtime_ns: int, size: int, stage: str) -> tuple[tuple[str, ...], bytes]:
+    """Return the modules of tramdva that a file imports and the hash of its syntax tree."""
+    tree = ast.parse(path.read_bytes(), filename=str(path))
+    imports: list[str] = []
+    for node in ast.walk(tree):
+        _drop_docstring(node)
+        if isinstance(node, ast.Import):
+            imports += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                raise ValueError(f"{path}: line {node.lineno}: relative imports are not followed")
+            imports += [f"{node.module}.{alias.name}" for alias in node.names]
+    if stage:
+        _keep_entry(tree, stage)
+    own = tuple(name for name in imports if name.split(".")[0] == "tramdva")
+    return own, hashlib.sha256(ast.dump(tree).encode()).digest()
+
+
+def _drop_docstring(node: ast.AST) -> None:
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
+        node.body = node.body[1:]
+
+
+def _keep_entry(tree: ast.Module, stage: str) -> None:
+    """Drop the entries of other stages from the table STAGES of the registry."""
+    for node in tree.body:
+        if isinstance(node, ast.AnnAssign) and getattr(node.target, "id", "") == "STAGES":
+            table = node.value
+            kept = [
+                (key, value)
+                for key, value in zip(table.keys, table.values, strict=True)
+                if key.value == stage
+            ]
+            table.keys, table.values = [k for k, _ in kept], [v for _, v in kept]

@@ -1,0 +1,258 @@
+"""Save and load result files: validated, stamped, atomic and bit-identical on rewriting.
+
+A file is written under a temporary name, synchronised and renamed: at no moment does half a file
+bear the final name. It holds no dates, so that the same values give the same bytes.
+`tramdva.registry` says which variables belong to each file.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import netCDF4
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tramdva.registry import STAGES, Stage, Variable
+
+if TYPE_CHECKING:
+    import xarray
+
+COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
+
+
+def save(
+    path: str | Path,
+    stage: str,
+    values: Mapping[str, ArrayLike],
+    *,
+    parameters: Mapping[str, Any],
+    code: str,
+) -> None:
+    """Write the result file of a stage.
+
+    Parameters
+    ----------
+    path : path
+        The file; its folder is made where it is missing.
+    stage : str
+        Name of the stage, a key of `tramdva.registry.STAGES`.
+    values : mapping
+        All variables of the stage in SI units. Flags may be given as their meanings, truths as
+        bool.
+    parameters : mapping
+        The values that made the results, stamped as JSON.
+    code : str
+        Hash of the code that made the results.
+
+    Raises
+    ------
+    ValueError
+        Where a variable is unknown, missing, of a wrong type, or of a shape that does not fit.
+    """
+    arrays, lengths = _validated(stage, values)
+    stamps = {
+        "title": STAGES[stage].title,
+        "stage": stage,
+        "tramdva_version": version("tramdva"),
+        "code_hash": code,
+        "parameters": json.dumps(parameters, sort_keys=True, ensure_ascii=False, allow_nan=False),
+    }
+    with atomically(path) as part:
+        try:
+            _write(part, STAGES[stage], arrays, lengths, stamps)
+        except RuntimeError as error:
+            raise OSError(f"{path}: cannot be written, disk full? ({error})") from None
+
+
+@contextmanager
+def atomically(path: str | Path) -> Iterator[Path]:
+    """Give a temporary name to write to, which becomes the file when the block succeeds.
+
+    The name of the file thus never stands for half of it.
+    """
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for leftover in path.parent.glob(f".{path.name}.*.part"):
+        leftover.unlink(missing_ok=True)
+    part = path.parent / f".{path.name}.{os.getpid()}.part"
+    try:
+        yield part
+        with part.open("rb+") as file:
+            os.fsync(file.fileno())
+        part.replace(path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+
+
+def read(path: str | Path) -> dict[str, np.ndarray]:
+    """Read a result file into plain arrays, without xarray.
+
+    Returns
+    -------
+    dict
+        Arrays by name as they were saved: truths as bool, flags as their meanings, texts as str.
+
+    Raises
+    ------
+    ValueError
+        Where the file is no complete result of this version of tramdva.
+    """
+    with _opened(path) as dataset:
+        variables = STAGES[dataset.stage].variables
+        return {name: _plain(dataset[name], variable) for name, variable in variables.items()}
+
+
+def read_parameters(path: str | Path) -> dict[str, Any]:
+    """Return the parameters that made a result file."""
+    with _opened(path) as dataset:
+        return json.loads(dataset.parameters)
+
+
+def load(path: str | Path) -> xarray.Dataset:
+    """Load a result file as an xarray dataset, flags as the numbers in the file.
+
+    Raises
+    ------
+    ValueError
+        Where the file is no complete result of this version of tramdva.
+    """
+    import xarray
+
+    _opened(path).close()
+    return xarray.load_dataset(path, engine="netcdf4")
+
+
+def _validated(
+    stage: str, values: Mapping[str, ArrayLike]
+) -> tuple[dict[str, np.ndarray], dict[str, int]]:
+    if stage not in STAGES:
+        raise ValueError(f"{stage}: unknown stage")
+    variables = STAGES[stage].variables
+    if unknown := sorted(set(values) - set(variables)):
+        raise ValueError(f"{stage}: unknown variable {', '.join(unknown)}")
+    if missing := sorted(set(variables) - set(values)):
+        raise ValueError(f"{stage}: missing variable {', '.join(missing)}")
+    arrays: dict[str, np.ndarray] = {}
+    lengths: dict[str, int] = {}
+    for name, variable in variables.items():
+        try:
+            arrays[name] = _encoded(values[name], variable)
+            _fit(arrays[name].shape, variable.dimensions, lengths)
+        except ValueError as error:
+            raise ValueError(f"{stage}: {name}: {error}") from None
+    return arrays, lengths
+
+
+def _fit(shape: tuple[int, ...], dimensions: tuple[str, ...], lengths: dict[str, int]) -> None:
+    if len(shape) != len(dimensions):
+        raise ValueError(f"has shape {shape}, must have dimensions ({', '.join(dimensions)})")
+    for dimension, length in zip(dimensions, shape, strict=True):
+        if lengths.setdefault(dimension, length) != length:
+            raise ValueError(
+                f"has length {length} along {dimension}, others have {lengths[dimension]}"
+            )
+
+
+def _encoded(value: ArrayLike, variable: Variable) -> np.ndarray:
+    """Return a value as its array in the file; texts as bytes of fixed length."""
+    if np.ma.isMaskedArray(value):
+        raise ValueError("is a masked array: use NaN and a status")
+    array = np.asarray(value)
+    if variable.kind == "text":
+        return _encoded_text(array)
+    if variable.kind == "real":
+        if array.dtype.kind not in "fiu":
+            raise ValueError(f"must be real numbers, not {array.dtype}")
+        return array.astype(np.float64)
+    return _encoded_flag(array, variable.meanings)
+
+
+def _encoded_text(array: np.ndarray) -> np.ndarray:
+    if array.size and array.dtype.kind not in "UOT":
+        raise ValueError(f"must be texts, not {array.dtype}")
+    encoded = [str(item).encode() for item in array.ravel()]
+    length = max([1, *map(len, encoded)])
+    return np.array(encoded, dtype=f"S{length}").reshape(array.shape)
+
+
+def _encoded_flag(array: np.ndarray, meanings: tuple[str, ...]) -> np.ndarray:
+    if array.dtype.kind in "UOT":
+        if wrong := sorted(set(map(str, array.ravel())) - set(meanings)):
+            raise ValueError(f"{', '.join(wrong)} is none of {', '.join(meanings)}")
+        codes = [meanings.index(str(item)) for item in array.ravel()]
+        return np.array(codes, dtype=np.int8).reshape(array.shape)
+    if array.size and array.dtype.kind not in "biu":
+        raise ValueError(f"must be flags, not {array.dtype}")
+    if array.size and (array.min() < 0 or array.max() >= len(meanings)):
+        raise ValueError(f"must be between 0 and {len(meanings) - 1}")
+    return array.astype(np.int8)
+
+
+def _write(
+    path: Path,
+    stage: Stage,
+    arrays: Mapping[str, np.ndarray],
+    lengths: Mapping[str, int],
+    stamps: Mapping[str, str],
+) -> None:
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as dataset:
+        dataset.setncatts(stamps)
+        for dimension, length in lengths.items():
+            dataset.createDimension(dimension, length)
+        for name, variable in stage.variables.items():
+            _add(dataset, name, variable, arrays[name])
+
+
+def _add(dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray) -> None:
+    dimensions = variable.dimensions
+    if variable.kind == "text":
+        length = array.dtype.itemsize
+        characters = f"string{length}"
+        if characters not in dataset.dimensions:
+            dataset.createDimension(characters, length)
+        dimensions = (*dimensions, characters)
+        array = np.frombuffer(array.tobytes(), "S1").reshape(*array.shape, length)
+    target = dataset.createVariable(name, array.dtype, dimensions, **COMPRESSION)
+    if array.size:
+        target[...] = array
+    target.setncatts({"long_name": variable.long_name, "units": variable.unit})
+    if variable.kind == "text":
+        target.setncattr("_Encoding", "utf-8")
+    if variable.meanings:
+        target.flag_values = np.arange(len(variable.meanings), dtype=np.int8)
+        target.flag_meanings = " ".join(variable.meanings)
+
+
+def _opened(path: str | Path) -> netCDF4.Dataset:
+    if not Path(path).is_file():
+        raise ValueError(f"{path}: there is no such file")
+    try:
+        dataset = netCDF4.Dataset(path)
+    except OSError as error:
+        raise ValueError(f"{path}: is no complete netCDF file ({error.strerror})") from None
+    dataset.set_auto_mask(False)
+    stage = STAGES.get(getattr(dataset, "stage", ""))
+    if stage is None or not hasattr(dataset, "parameters"):
+        dataset.close()
+        raise ValueError(f"{path}: is no result of tramdva")
+    if missing := sorted(set(stage.variables) - set(dataset.variables)):
+        dataset.close()
+        raise ValueError(f"{path}: lacks {', '.join(missing)}: made by another version")
+    return dataset
+
+
+def _plain(stored: netCDF4.Variable, variable: Variable) -> np.ndarray:
+    array = np.asarray(stored[...])
+    if variable.kind == "truth":
+        return array.astype(bool)
+    if variable.kind == "flag":
+        return np.array(variable.meanings)[array]
+    return array

@@ -1,0 +1,203 @@
+"""Stability in first approximation: growth rates, Routh-Hurwitz, stability maps.
+
+References
+----------
+Equations (6)-(8) and figure 2 of the paper; F. R. Gantmacher, The Theory of Matrices, vol. 2,
+chapter XV.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tramdva.wheelset import WheelsetParameters, linearised, wheelset_parameters
+
+STABLE, OSCILLATORY, MONOTONE = 0, 1, 2
+
+# Coefficients are formed with the time in ms: in s they span thirty decades.
+_TIME = 1e-3
+
+
+def leading_eigenvalues(values: WheelsetParameters, with_absorber: bool) -> np.ndarray:
+    """Eigenvalue of largest real part (with positive imaginary part if complex).
+
+    Parameters
+    ----------
+    values : WheelsetParameters
+        Fields broadcast to the shape of the result; SI units.
+    with_absorber : bool
+        Whether the absorber is mounted.
+
+    Returns
+    -------
+    complex array
+        In 1/s.
+    """
+    shape = np.broadcast_shapes(*(np.shape(value) for value in values))
+    eigenvalues = np.linalg.eigvals(linearised(values, with_absorber).matrices)
+    leading = np.argmax(eigenvalues.real, axis=1)
+    found = np.take_along_axis(eigenvalues, leading[:, None], axis=1)[:, 0]
+    return (found.real + 1j * np.abs(found.imag)).reshape(shape)
+
+
+def growth_rate(values: WheelsetParameters, with_absorber: bool) -> np.ndarray:
+    """Largest real part of the eigenvalues in 1/s; arguments as in `leading_eigenvalues`."""
+    return leading_eigenvalues(values, with_absorber).real
+
+
+def characteristic_polynomial(values: WheelsetParameters, with_absorber: bool) -> np.ndarray:
+    """Coefficients 1, a_1, .., a_n of the characteristic equation of (8).
+
+    Parameters
+    ----------
+    values : WheelsetParameters
+        Fields broadcast to the shape of the result; SI units.
+    with_absorber : bool
+        Whether the absorber is mounted: n = 6, else n = 4.
+
+    Returns
+    -------
+    (..., n + 1) array
+        In ms: a_i is in (1/ms)^i.
+
+    Notes
+    -----
+    From the determinant of the mechanical system, not from the state matrix: with the polynomials
+    ``A``, ``T``, ``R`` (inertia, damping and stiffness of each body) and the couplings ``t``,
+    ``r``, ``det = A T R - t^2 R - r^2 T``.
+    """
+    p = WheelsetParameters(*np.broadcast_arrays(*values))
+    shape = p.m_A.shape
+    kappa = linearised(values, with_absorber).kappa.reshape(shape)
+    time, Omega2 = _TIME, p.Omega**2
+
+    def quadratic(mass: Any, damping: Any, stiffness: Any) -> np.ndarray:
+        return np.stack([mass, damping * time, stiffness * time**2], axis=-1)
+
+    c_T, d_T = (p.c_T, p.d_T) if with_absorber else (np.zeros(shape), np.zeros(shape))
+    A = quadratic(p.m_A, p.d_A + p.d_R + d_T, p.c_A + p.c_R + c_T - p.m_A * Omega2)
+    R = quadratic(p.m_R, p.d_R + kappa, p.c_R - p.m_R * Omega2)
+    r = quadratic(np.zeros(shape), p.d_R, p.c_R)
+    polynomial = _product(A, R) - _product(r, r)
+    if with_absorber:
+        T = quadratic(p.m_T, d_T, c_T - p.m_T * Omega2)
+        t = quadratic(np.zeros(shape), d_T, c_T)
+        polynomial = _product(polynomial, T) - _product(_product(t, t), R)
+    return polynomial / polynomial[..., :1]
+
+
+def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Products of polynomials along the last axis."""
+    out = np.zeros((*a.shape[:-1], a.shape[-1] + b.shape[-1] - 1))
+    for i in range(a.shape[-1]):
+        out[..., i : i + b.shape[-1]] += a[..., i : i + 1] * b
+    return out
+
+
+def hurwitz_determinants(coefficients: np.ndarray) -> np.ndarray:
+    """Hurwitz determinants H_1, .., H_n of polynomials 1, a_1, .., a_n.
+
+    Parameters
+    ----------
+    coefficients : (..., n + 1) array
+        Leading coefficient 1 first.
+
+    Returns
+    -------
+    (..., n) array
+        All positive if and only if all roots have negative real parts.
+    """
+    n = coefficients.shape[-1] - 1
+    matrix = np.zeros((*coefficients.shape[:-1], n, n))
+    for i in range(n):
+        for j in range(n):
+            k = 2 * (j + 1) - (i + 1)
+            if 0 <= k <= n:
+                matrix[..., i, j] = coefficients[..., k]
+    minors = [np.linalg.det(matrix[..., :order, :order]) for order in range(1, n + 1)]
+    return np.stack(minors, axis=-1)
+
+
+def classify(leading: np.ndarray) -> np.ndarray:
+    """`STABLE`, `OSCILLATORY` or `MONOTONE` from leading eigenvalues (1/s)."""
+    kind = np.where(leading.imag > 0.0, OSCILLATORY, MONOTONE)
+    return np.where(leading.real < 0.0, STABLE, kind).astype(np.int8)
+
+
+def _map(values: WheelsetParameters, with_absorber: bool) -> dict[str, np.ndarray]:
+    leading = leading_eigenvalues(values, with_absorber)
+    coefficients = characteristic_polynomial(values, with_absorber)
+    determinants = hurwitz_determinants(coefficients)
+    agrees = np.all(determinants > 0.0, axis=-1) == (leading.real < 0.0)
+    return {
+        "growth_rate": leading.real,
+        "frequency": np.where(leading.imag > 0.0, leading.imag / (2.0 * np.pi), 0.0),
+        "hurwitz_h5": determinants[..., -2],
+        "coefficient_a6": coefficients[..., -1],
+        "instability": classify(leading),
+        "routh_hurwitz_agrees": agrees,
+    }
+
+
+def stability_map(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """Stability maps of figure 2.
+
+    Parameters
+    ----------
+    cfg : mapping
+        Sections ``curve``, ``creep_force``, ``wheelset``, ``absorber`` (m_T),
+        ``absorber_variants``, ``study`` (ranges of c_A, c_R, d_T, c_T) and ``numerics`` (points).
+
+    Returns
+    -------
+    dict
+        Variables of ``stability_map.nc``: maps over (c_R, c_A) without absorber and for each
+        variant, the
+        map over (d_T, c_T) of the baseline, and the baseline's growth rates over c_A alone.
+    """
+    baseline = wheelset_parameters(cfg)
+    points = cfg["numerics"]["points"]
+    axes = {key: _axis(cfg["study"][key], points) for key in ("c_A", "c_R", "d_T", "c_T")}
+    variants = absorber_variants(cfg)
+    plane = {"c_A": axes["c_A"][None, :], "c_R": axes["c_R"][:, None]}
+    maps, lines = [], []
+    for _, c_T, d_T in variants:
+        values = baseline._replace(c_T=c_T, d_T=d_T)
+        mounted = not np.isnan(c_T)
+        maps.append(_map(values._replace(**plane), mounted))
+        lines.append(growth_rate(values._replace(c_A=axes["c_A"]), mounted))
+    absorber = _map(baseline._replace(d_T=axes["d_T"][:, None], c_T=axes["c_T"][None, :]), True)
+    stacked = {name: np.stack([single[name] for single in maps]) for name in maps[0]}
+    return {
+        **absorber_coordinates(cfg),
+        **axes,
+        **stacked,
+        **{f"absorber_{name}": value for name, value in absorber.items()},
+        "baseline_growth_rate": np.stack(lines),
+        "baseline_c_A": baseline.c_A,
+        "baseline_c_R": baseline.c_R,
+    }
+
+
+def absorber_variants(cfg: Mapping[str, Any]) -> list[tuple[str, float, float]]:
+    """Name, c_T (N/m) and d_T (N s/m) of each variant, ``none`` (NaN) first."""
+    listed = [(v["name"], v["c_T"], v["d_T"]) for v in cfg["absorber_variants"]]
+    return [("none", np.nan, np.nan), *listed]
+
+
+def absorber_coordinates(cfg: Mapping[str, Any]) -> dict[str, Any]:
+    """Coordinates along the dimension ``absorber``."""
+    variants = absorber_variants(cfg)
+    names: Sequence[str] = [name for name, _, _ in variants]
+    c_T = np.array([c for _, c, _ in variants])
+    return {
+        "absorber": np.array(names),
+        "m_T": np.where(np.isnan(c_T), np.nan, cfg["absorber"]["m_T"]),
+        "absorber_c_T": c_T,
+        "absorber_d_T": np.array([d for _, _, d in variants]),
+    }
+
+
+def _axis(limits: Mapping[str, float], points: int) -> np.ndarray:
+    return np.linspace(limits["min"], limits["max"], points)
