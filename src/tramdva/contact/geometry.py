@@ -10,6 +10,7 @@ contact); a conformal root has one.
 Tables are tensor-product cubic B-splines: h has two continuous derivatives.
 """
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -84,7 +85,7 @@ def _two_point_barriers(curve, wheel_position, rail, shift):
     low = np.flatnonzero((gap[1:-1] < gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
     low = low[gap[low] < gap.min() + SPLIT_TOLERANCE]
     barriers = []
-    for left, right in zip(low[:-1], low[1:]):
+    for left, right in itertools.pairwise(low):
         top = left + int(np.argmax(gap[left:right]))
         barriers.append((gap[top] - max(gap[left], gap[right]), float(y[inside][top])))
     return barriers
@@ -143,7 +144,7 @@ def contact_tables(
         _axis(0.0, np.tan(yaw_limit) ** 2, np.tan(yaw_limit) ** 2 / (yaw_nodes - 1), PADS[2]),
     )
     ends = (None, *splits, None)
-    zones = [_zone(wheel, inner, outer) for outer, inner in zip(ends[:-1], ends[1:])]
+    zones = [_zone(wheel, inner, outer) for outer, inner in itertools.pairwise(ends)]
     return tuple(_table(zone, rail, wheel_radius, axes, gap_scale) for zone in zones)
 
 
