@@ -113,7 +113,7 @@ def tram_cases() -> pd.DataFrame:
     """S1002 on UIC60 under tram conditions, mm, degrees and N as printed."""
     table = read_wheelset_table("tram_s1002_uic60.txt", {}).drop(columns=0)
     table.columns = (
-        "side y patch z y_track z_track angle y_wheel nu_x nu_y phi FN FX FS pmax ncon".split()
+        "side y patch z y_track z_track angle y_wheel nu_x nu_y phi FN FX FS pmax".split()
     )
     numbers = table.columns[1:]
     table[numbers] = table[numbers].astype(float)
