@@ -9,9 +9,9 @@ from pathlib import Path
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-from tramdva.provenance import numba_cache_folder
+from tramdva.provenance import use_numba_cache
 
-os.environ["NUMBA_CACHE_DIR"] = str(numba_cache_folder())
+use_numba_cache()
 
 import pytest
 
@@ -30,17 +30,39 @@ def config_folder(tmp_path: Path) -> Path:
     return shutil.copytree(ROOT / "config", tmp_path / "config")
 
 
+def copy_code(source: Path, target: Path) -> Path:
+    """Copy what a run of the pipeline needs."""
+    for name in ("src", "workflow", "paper_figures", "profiles", "config"):
+        ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "*.png")
+        shutil.copytree(source / name, target / name, ignore=ignored)
+    shutil.copy(source / "Snakefile", target)
+    return target
+
+
 @pytest.fixture(scope="session")
-def snakemake():
-    """Start snakemake, in a folder other than the checkout, and return how it ended."""
+def frozen_code(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Copy of the code, so that edits during the tests do not disturb them."""
+    return copy_code(ROOT, tmp_path_factory.mktemp("frozen") / "code")
+
+
+@pytest.fixture
+def code(frozen_code: Path, tmp_path: Path) -> Path:
+    """Copy of the code that a test may edit."""
+    return copy_code(frozen_code, tmp_path / "code")
+
+
+@pytest.fixture(scope="session")
+def snakemake(frozen_code: Path):
+    """Start snakemake with a copy of the code and return how it ended."""
 
     def start(
-        folder: Path, *arguments: str, snakefile: Path = ROOT / "Snakefile"
+        folder: Path, *arguments: str, code: Path = frozen_code, snakefile: str = "Snakefile"
     ) -> subprocess.CompletedProcess:
-        program = [sys.executable, "-m", "snakemake", "--snakefile", str(snakefile)]
+        program = [sys.executable, "-m", "snakemake", "--snakefile", str(code / snakefile)]
         return subprocess.run(
             [*program, "--directory", str(folder), *arguments],
-            cwd=snakefile.parent,
+            cwd=code,
+            env=os.environ | {"PYTHONPATH": str(code / "src")},
             capture_output=True,
             text=True,
             timeout=600,
@@ -48,3 +70,12 @@ def snakemake():
         )
 
     return start
+
+
+@pytest.fixture(scope="session")
+def quick_run(snakemake, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder in which the whole pipeline ran with coarse numerics."""
+    folder = tmp_path_factory.mktemp("quick")
+    ended = snakemake(folder, "--configfile", "config/quick.yaml")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    return folder

@@ -102,7 +102,7 @@ WRONG_LINES = {
     "key of no section": (
         "c_A: 5.2e7",
         "c_A: unknown key; did you mean wheelset.c_A or study.stability_map.c_A or "
-        "study.hopf_curves.c_A?",
+        "study.limit_cycles.c_A?",
     ),
     "key of another section": (
         "wheelset: {F_N: 3e4}",

@@ -33,6 +33,7 @@ _VARIANTS = (
     "absorber_variants.d_T",
 )
 _FIGURE = ("label",)
+_FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
 _FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
 
 # What each stage and each figure uses. `study.<x>` and `numerics.<x>` come without the <x>.
@@ -88,10 +89,10 @@ STAGES: dict[str, tuple[str, ...]] = {
         "study.frequency_response",
         "numerics.frequency_response",
     ),
-    "fig02_stability_map": _FIGURE_OF_VARIANTS,
+    "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
-    "fig05_critical_hopf_curve": _FIGURE,
+    "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
     "fig06_cycle_amplitudes": _FIGURE,
     "fig07_frequency_response": _FIGURE,
 }
@@ -191,8 +192,7 @@ def load(
     if overrides:
         layers.append(_Layer("--config", overrides))
     run = None if problems else _validate(Run, layers, problems)
-    names = run.lines if run else _names(layers)
-    lines = _load_lines(folder, layers, names, problems)
+    lines = _load_lines(folder, layers, problems)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(problems)))
     return Configuration(run, lines)
@@ -222,24 +222,24 @@ def _shown(path: Path, folder: Path) -> str:
     return str(path)
 
 
-def _names(layers: Sequence[_Layer]) -> list[str]:
-    """Return the usable names of lines of a run that is otherwise wrong."""
+def _names(layers: Sequence[_Layer]) -> dict[str, int]:
+    """Return the usable names of lines, and their positions, of a run that may be wrong."""
     names = _merged(layers).get("lines", [])
-    if not isinstance(names, list):
-        return []
-    usable = (name for name in names if isinstance(name, str) and re.fullmatch(LINE_NAME, name))
-    return list(dict.fromkeys(usable))
+    listed = enumerate(names) if isinstance(names, list) else []
+    return {
+        name: position
+        for position, name in listed
+        if isinstance(name, str) and re.fullmatch(LINE_NAME, name)
+    }
 
 
-def _load_lines(
-    folder: Path, run_layers: Sequence[_Layer], names: Sequence[str], problems: list[str]
-) -> dict[str, Line]:
+def _load_lines(folder: Path, run_layers: Sequence[_Layer], problems: list[str]) -> dict[str, Line]:
     base_problems: list[str] = []
     base = _read(folder / "lines" / f"{BASE_LINE}.yaml", folder, base_problems)
     problems += base_problems
     there = sorted(path.stem for path in (folder / "lines").glob("*.yaml"))
     lines = {}
-    for position, name in enumerate(names):
+    for name, position in _names(run_layers).items():
         if name not in there:
             where = _origin(("lines", position), run_layers).name
             problems.append(f"{where}: lines[{position}] = {name}: {_no_such_line(name, there)}")

@@ -1,0 +1,449 @@
+"""The pipeline reruns exactly what a change concerns, and says clearly what is wrong.
+
+A completed run is imitated: every file is touched, and Snakemake records it as made. For the keys
+of a line, the record is cloned to a line per key, so that a single dry run answers for all.
+"""
+
+import base64
+import json
+import re
+import shutil
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tramdva import config
+from tramdva.provenance import code_hash, reached_modules
+from tramdva.registry import STAGES
+
+# What each rule reads of the files of others.
+UPSTREAM = {
+    "hopf_points": ["stability_map"],
+    "limit_cycles": ["hopf_points"],
+    "critical_hopf_curve": ["hopf_curves"],
+    "cycle_amplitudes": ["critical_hopf_curve"],
+    "absorber_tuning": ["critical_hopf_curve"],
+    "frequency_response": ["absorber_tuning"],
+    "fig02_stability_map": ["stability_map"],
+    "fig03_bifurcation_diagram": ["hopf_points", "limit_cycles"],
+    "fig04_hopf_curves": ["hopf_curves", "critical_hopf_curve"],
+    "fig05_critical_hopf_curve": ["critical_hopf_curve"],
+    "fig06_cycle_amplitudes": ["critical_hopf_curve", "cycle_amplitudes"],
+    "fig07_frequency_response": ["frequency_response", "absorber_tuning"],
+    "table2_absorber_designs": ["absorber_tuning"],
+}
+FIGURES = [rule for rule in UPSTREAM if rule.startswith("fig")]
+RULES = {"stability_map", "hopf_curves", *UPSTREAM}
+WITH_VARIANTS = ["stability_map", "hopf_points", "limit_cycles"]
+WITH_CRITICAL_CURVE = ["hopf_curves", "critical_hopf_curve", "cycle_amplitudes", "absorber_tuning"]
+
+# The rules that use a key themselves; the longest prefix counts.
+USERS = {
+    "label": FIGURES,
+    "curve": list(STAGES),
+    "creep_force": list(STAGES),
+    "wheelset": list(STAGES),
+    "wheelset.c_A": ["stability_map", "cycle_amplitudes", "absorber_tuning", "frequency_response"],
+    "absorber": ["absorber_tuning", "fig02_stability_map", "fig05_critical_hopf_curve"],
+    "absorber.m_T": WITH_VARIANTS + WITH_CRITICAL_CURVE,
+    "forced_excitation": ["absorber_tuning", "frequency_response"],
+    "absorber_variants": WITH_VARIANTS,
+    "absorber_variants.name": [
+        *WITH_VARIANTS,
+        "fig02_stability_map",
+        "fig03_bifurcation_diagram",
+    ],
+    "absorber_variants.label": ["fig02_stability_map", "fig03_bifurcation_diagram"],
+    "study.stability_map": ["stability_map"],
+    "study.limit_cycles": ["limit_cycles"],
+    "study.hopf_curves": ["hopf_curves"],
+    "study.critical_hopf_curve": ["critical_hopf_curve"],
+    "study.cycle_amplitudes": ["cycle_amplitudes"],
+    "study.frequency_response": ["absorber_tuning", "frequency_response"],
+} | {f"numerics.{stage}": [stage] for stage in STAGES}
+
+
+def concerned(key: str) -> set[str]:
+    """The rules that a change of a key concerns, directly or through the files of others."""
+    prefixes = [p for p in USERS if key == p or key.startswith(f"{p}.")]
+    return with_downstream(set(USERS[max(prefixes, key=len)]))
+
+
+def changed(tree: object) -> Iterator[tuple[str, object]]:
+    """Each value changed in turn: its key and the smallest tree that holds the new value."""
+    if isinstance(tree, dict):
+        for name, value in tree.items():
+            for key, new in changed(value):
+                yield f"{name}.{key}".rstrip("."), {name: new}
+    elif isinstance(tree, list) and isinstance(tree[0], dict):
+        for key, new in changed(tree[0]):
+            yield key, [tree[0] | new, *tree[1:]]
+    elif isinstance(tree, list):
+        yield "", [tree[0] * 1.01, *tree[1:]]
+    elif isinstance(tree, str):
+        yield "", f"{tree}x"
+    elif isinstance(tree, int):
+        yield "", tree + 1
+    else:
+        yield "", tree * 0.99 or 1.0
+
+
+def files_of(rule: str, line: str) -> list[str]:
+    if rule in STAGES:
+        return [f"results/{line}/{rule}.nc"]
+    kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
+    return [f"paper_figures/{line}/{rule}.{kind}" for kind in kinds]
+
+
+def make_files(folder: Path, line: str) -> None:
+    for rule in RULES:
+        for name in files_of(rule, line):
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(rule)
+
+
+def planned(summary: str) -> dict[str, set[str]]:
+    """Rules that are to be run, by line, as `snakemake --summary` tells."""
+    plan: dict[str, set[str]] = {}
+    for row in summary.splitlines()[1:]:
+        name, _, rule, *_, action = row.split("\t")
+        rules = plan.setdefault(Path(name).parent.name, set())
+        if action == "update pending":
+            rules.add(rule)
+    return plan
+
+
+def summary(snakemake, folder: Path, *arguments: str, **where) -> dict[str, set[str]]:
+    ended = snakemake(folder, "--summary", *arguments, **where)
+    assert ended.returncode == 0, ended.stderr
+    return planned(ended.stdout)
+
+
+@pytest.fixture(scope="session")
+def completed_once(frozen_code: Path, snakemake, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("completed")
+    shutil.copytree(frozen_code / "config", folder / "config")
+    make_files(folder, "paper")
+    ended = snakemake(folder, "--touch", "--forceall", "--quiet", "all")
+    assert ended.returncode == 0, ended.stderr
+    return folder
+
+
+@pytest.fixture
+def completed(completed_once: Path, tmp_path: Path) -> Path:
+    """A folder in which everything is made, for a test to change."""
+    return shutil.copytree(completed_once, tmp_path / "run")
+
+
+def clone_line(folder: Path, line: str) -> None:
+    """Let a line be completed that has the same values as the paper's."""
+    for rule in RULES:
+        for old, new in zip(files_of(rule, "paper"), files_of(rule, line), strict=True):
+            (folder / new).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(folder / old, folder / new)
+            record = (folder / ".snakemake/metadata" / encoded(old)).read_text()
+            (folder / ".snakemake/metadata" / encoded(new)).write_text(
+                record.replace("/paper/", f"/{line}/")
+            )
+
+
+def encoded(name: str) -> str:
+    return base64.b64encode(name.encode()).decode()
+
+
+def write_line(folder: Path, name: str, content: dict) -> None:
+    paper = yaml.safe_load((folder / "config/lines/paper.yaml").read_text(encoding="utf-8"))
+    text = yaml.safe_dump({"label": paper["label"]} | content, allow_unicode=True)
+    (folder / f"config/lines/{name}.yaml").write_text(text, encoding="utf-8")
+
+
+def test_nothing_to_do_when_complete(completed: Path, snakemake) -> None:
+    assert summary(snakemake, completed) == {"paper": set()}
+
+
+def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) -> None:
+    paper = config.load(completed / "config").lines["paper"]
+    changes = list(changed(paper.model_dump(mode="json")))
+    keys = {f"key{number}": key for number, (key, _) in enumerate(changes)}
+    for line, (_, content) in zip(keys, changes, strict=True):
+        clone_line(completed, line)
+        write_line(completed, line, content)
+    clone_line(completed, "same")
+    write_line(completed, "same", {})
+
+    plan = summary(snakemake, completed, "--config", f"lines=[same,{','.join(keys)}]")
+
+    assert plan.pop("same") == set()
+    assert len(plan) > 50
+    assert {keys[line]: rules for line, rules in plan.items()} == {
+        key: concerned(key) for key in keys.values()
+    }
+
+
+def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
+    loaded = config.load(completed / "config")
+    before = {rule: config.stage(loaded, "paper", rule) for rule in config.STAGES}
+    numerics = loaded.run.numerics.model_dump()
+    changes = list(changed({"numerics": numerics}))
+    assert len(changes) > 15
+    for key, content in changes:
+        other = config.load(completed / "config", overrides=content)
+        differing = {r for r in before if config.stage(other, "paper", r) != before[r]}
+        assert differing == set(USERS[key.rpartition(".")[0]]), key
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_numerics_of_a_stage_rerun_its_dependants(completed: Path, snakemake, stage: str) -> None:
+    numerics = config.load(completed / "config").run.numerics.model_dump()[stage]
+    _, content = next(changed({"numerics": {stage: numerics}}))
+    (completed / "other.yaml").write_text(yaml.safe_dump(content))
+
+    plan = summary(snakemake, completed, "--configfile", str(completed / "other.yaml"))
+
+    assert plan == {"paper": concerned(f"numerics.{stage}")}
+
+
+def test_swapped_values_rerun(completed: Path, snakemake) -> None:
+    clone_line(completed, "x")
+    write_line(completed, "x", {"wheelset": {"c_R": 5.2e7, "c_A": 4.9e7}})
+
+    plan = summary(snakemake, completed, "--config", "lines=[x]")
+
+    assert plan == {"x": concerned("wheelset.c_R")}
+
+
+def test_notation_order_and_comments_rerun_nothing(completed: Path, snakemake) -> None:
+    path = completed / "config/lines/paper.yaml"
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    backwards = {key: content[key] for key in reversed(content)}
+    backwards["curve"] = {"outer_speed": "4.150", "gamma": -4e-2, "r_C": 25.750}
+    text = yaml.safe_dump(backwards, allow_unicode=True, sort_keys=False)
+    path.write_text(f"# another comment\n{text}", encoding="utf-8")
+
+    assert summary(snakemake, completed) == {"paper": set()}
+
+
+def test_second_line_runs_alone(completed: Path, snakemake) -> None:
+    write_line(completed, "dresden", {"label": "Dresden", "curve": {"r_C": 30}})
+
+    plan = summary(snakemake, completed, "--config", "lines=[paper,dresden]")
+
+    assert plan == {"paper": set(), "dresden": RULES}
+
+
+def test_lost_intermediate_is_made_again(completed: Path, snakemake) -> None:
+    (completed / "results/paper/hopf_curves.nc").unlink()
+
+    assert summary(snakemake, completed)["paper"] >= {"hopf_curves"}
+
+
+def append(path: Path, text: str) -> None:
+    path.write_text(path.read_text(encoding="utf-8") + text, encoding="utf-8")
+
+
+def script_of(code: Path, rule: str) -> Path:
+    folder = "workflow/scripts" if rule in STAGES else "paper_figures"
+    return code / folder / f"{rule}.py"
+
+
+def with_downstream(rules: set[str]) -> set[str]:
+    while more := {r for r, up in UPSTREAM.items() if rules & set(up)} - rules:
+        rules = rules | more
+    return rules
+
+
+@pytest.mark.parametrize(
+    "module", ["wheelset", "absorber", "bifurcation/critical_hopf", "results", "job", "config"]
+)
+def test_edited_module_reruns_its_users(
+    completed: Path, code: Path, snakemake, module: str
+) -> None:
+    append(code / f"src/tramdva/{module}.py", "\n_edited = True\n")
+    users = {
+        rule
+        for rule in RULES
+        if f"tramdva.{module.replace('/', '.')}" in reached_modules(script_of(code, rule))
+    }
+
+    plan = summary(snakemake, completed, code=code)
+
+    assert plan == {"paper": with_downstream(users)}
+
+
+def test_each_edited_module_changes_the_hash_of_its_users_alone(code: Path) -> None:
+    """Which scripts reach a module is compared with what Python loads in test_provenance."""
+    package = code / "src/tramdva"
+    scripts = {rule: script_of(code, rule) for rule in RULES}
+    before = {rule: code_hash(script, package=package) for rule, script in scripts.items()}
+    reached = {rule: reached_modules(script, package) for rule, script in scripts.items()}
+    for path in sorted(package.rglob("*.py")):
+        parts = path.relative_to(package.parent).with_suffix("").parts
+        module = ".".join(part for part in parts if part != "__init__")
+        text = path.read_text(encoding="utf-8")
+        append(path, "\n_edited = True\n")
+        after = {rule: code_hash(script, package=package) for rule, script in scripts.items()}
+        path.write_text(text, encoding="utf-8")
+        assert {r for r in RULES if after[r] != before[r]} == {
+            rule for rule in RULES if module in reached[rule]
+        }, module
+
+
+def test_edited_figure_redraws_itself(completed: Path, code: Path, snakemake) -> None:
+    append(code / "paper_figures/fig05_critical_hopf_curve.py", "\n_edited = True\n")
+
+    plan = summary(snakemake, completed, code=code)
+
+    assert plan == {"paper": {"fig05_critical_hopf_curve"}}
+
+
+def test_edited_style_redraws_all_figures(completed: Path, code: Path, snakemake) -> None:
+    append(code / "paper_figures/tramdva.mplstyle", "\nlines.linewidth: 3\n")
+
+    plan = summary(snakemake, completed, code=code)
+
+    assert plan == {"paper": set(FIGURES)}
+
+
+def test_touch_comments_and_docstrings_rerun_nothing(
+    completed: Path, code: Path, snakemake
+) -> None:
+    for path in [*code.rglob("*.py"), *code.rglob("*.mplstyle"), code / "Snakefile"]:
+        if path.suffix == ".py":
+            append(path, "\n# a comment\n")
+        path.touch()
+    wheelset = code / "src/tramdva/wheelset.py"
+    wheelset.write_text(re.sub(r'^"""', '"""Changed. ', wheelset.read_text(encoding="utf-8")))
+
+    assert summary(snakemake, completed, code=code) == {"paper": set()}
+
+
+@pytest.mark.parametrize("arguments", [["-n"], ["-j2"], ["--summary"]])
+def test_wrong_configuration_shows_the_problems_alone(
+    completed: Path, snakemake, arguments: list[str]
+) -> None:
+    write_line(completed, "x", {"wheelset": {"c_A": 5.2e4}})
+
+    ended = snakemake(completed, *arguments, "--config", "lines=[x,../y,papr]")
+
+    assert ended.returncode == 1
+    assert ended.stdout == ""
+    lines = [line for line in ended.stderr.splitlines() if "workflow specific profile" not in line]
+    assert lines == [
+        '--config: lines[1] = "../y": must be a name of lower-case letters, digits, - and _, '
+        "at most 41 of them",
+        "config/lines/x.yaml: wheelset.c_A = 52000.0: must be between 1e6 and 1e10 N/m "
+        "(effective stiffness of axle and primary suspension)",
+        "--config: lines[2] = papr: there is no config/lines/papr.yaml; did you mean paper?",
+    ]
+
+
+def test_catalog_finds_the_same_jobs(tmp_path: Path, snakemake) -> None:
+    tables = []
+    for snakefile in ("Snakefile", "workflow/Snakefile"):
+        ended = snakemake(tmp_path, "-n", "--cores", "1", snakefile=snakefile)
+        assert ended.returncode == 0, ended.stderr
+        jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
+        tables.append({rule: number for rule, number in jobs.items() if rule in RULES})
+
+    assert tables[0] == tables[1] == dict.fromkeys(RULES, "1")
+
+
+def test_own_configuration_of_the_working_directory_counts(
+    frozen_code: Path, tmp_path: Path, snakemake
+) -> None:
+    shutil.copytree(frozen_code / "config", tmp_path / "config")
+    write_line(tmp_path, "dresden", {"label": "Dresden"})
+    append(tmp_path / "config/config.yaml", "\n")
+    path = tmp_path / "config/config.yaml"
+    path.write_text(path.read_text().replace("lines: [paper]", "lines: [dresden]"))
+
+    assert summary(snakemake, tmp_path) == {"dresden": RULES}
+
+
+BROKEN = """
+rule all:
+    input: "made"
+
+rule broken:
+    output: "made"
+    log: "logs/broken.log"
+    script: "broken.py"
+"""
+
+
+@pytest.mark.parametrize(
+    ("raised", "said"),
+    [
+        ("ValueError('no Hopf point\\n at all')", "ValueError: no Hopf point at all"),
+        ("FloatingPointError()", "FloatingPointError: no reason given"),
+    ],
+)
+def test_failing_job_says_one_line_and_logs_the_traceback(
+    tmp_path: Path, snakemake, raised: str, said: str
+) -> None:
+    (tmp_path / "Snakefile").write_text(BROKEN)
+    (tmp_path / "broken.py").write_text(
+        "import logging, sys, os, warnings\nfrom tramdva import job\n"
+        "with job.logging_to(snakemake.log[0]):\n"
+        "    print('printed'); logging.info('logged'); warnings.warn('warned')\n"
+        "    os.system('echo child'); print('error', file=sys.stderr)\n"
+        f"    raise {raised}\n"
+    )
+
+    ended = snakemake(tmp_path, "-c1", snakefile=str(tmp_path / "Snakefile"))
+
+    log = (tmp_path / "logs/broken.log").read_text()
+    assert ended.returncode == 1
+    assert f"{said} (see logs/broken.log)\n" in ended.stderr
+    assert "Traceback" not in ended.stdout + ended.stderr
+    for text in ("printed", "logged", "warned", "child", "error", "Traceback"):
+        assert text in log, text
+
+
+def test_times_of_jobs_are_told(tmp_path: Path) -> None:
+    from tramdva import job
+
+    for stage, seconds in (("hopf_points", "2.25"), ("stability_map", "1.5")):
+        path = tmp_path / f"paper/{stage}.tsv"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"s\th:m:s\tmax_rss\n{seconds}\t0:00:02\t100\n")
+        time.sleep(0.01)
+
+    assert job.summary(["paper"], tmp_path).splitlines() == [
+        "tramdva: results/ and paper_figures/ are complete.",
+        "      2.2 s  paper/hopf_points",
+        "      1.5 s  paper/stability_map",
+    ]
+
+
+def test_rules_declare_the_same_directives(root: Path) -> None:
+    """Order of directives in every rule; a deviation is then visible."""
+    text = (root / "Snakefile").read_text()
+    order = ["input", "output", "log", "benchmark", "threads", "params", "message", "script"]
+    for rule in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
+        name, body = rule
+        directives = re.findall(r"^    (\w+):", body, re.MULTILINE)
+        if name != "all":
+            assert directives in (order, order[1:]), name
+
+
+def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
+    text = (root / "Snakefile").read_text()
+    for rule, body in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
+        if rule != "all":
+            declared = re.findall(r"^        (\w+)=rules\.(\w+)\.", body, re.MULTILINE)
+            assert [name for name, _ in declared] == [of for _, of in declared], rule
+            script = script_of(root, rule).read_text(encoding="utf-8")
+            used = set(re.findall(r"snakemake\.input\.(\w+)", script))
+            assert used == set(UPSTREAM.get(rule, [])) == {name for name, _ in declared}, rule
+
+
+def test_parameters_of_jobs_are_plain_json(root: Path) -> None:
+    loaded = config.load(root / "config")
+    for rule in config.STAGES:
+        values = config.stage(loaded, "paper", rule)
+        assert json.loads(json.dumps(values)) == values
