@@ -118,7 +118,7 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     worn_area = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
             if slip == 0.0 or field.length_x[k, j] == 0.0:
                 continue
             pressure = field.pressure[k, j]
@@ -138,7 +138,7 @@ def region_areas(field, rolling_speed, chart, areas):
     areas[:] = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
             region = 4
             if slip > 0.0:
                 region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)

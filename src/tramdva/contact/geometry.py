@@ -25,6 +25,7 @@ WHEEL_STRIDE = 4
 SHEAR_ANGLE = np.radians(60.0)
 SPLIT_BARRIER = 2.0
 SPLIT_DISTANCE = 4e-3
+RETREAT = 60.0  # 1/m, bend of a zone's continuation beyond its split
 SPLIT_TOLERANCE = 0.06e-3  # covers one step of shift at a jump from tread to flank
 OUTSIDE_TABLE = 1
 
@@ -96,13 +97,14 @@ def _two_point_barriers(curve, wheel_position, rail, shift):
 
 
 def _zone(wheel: Profile, inner: float | None, outer: float | None):
-    """Wheel profile between two splits, continued beyond them by its tangents."""
+    """Wheel profile between two splits, continued beyond them by parabolas that turn away."""
     y, z, slope = wheel.position, wheel.depth.copy(), wheel.slope.copy()
-    for split, other in ((inner, lambda s: y < s), (outer, lambda s: y > s)):
+    for split, beyond in ((inner, y < (inner or 0.0)), (outer, y > (outer or 0.0))):
         if split is not None:
-            tangent = float(wheel.slope_at(split))
-            z[other(split)] = wheel.depth_at(split) + tangent * (y[other(split)] - split)
-            slope[other(split)] = tangent
+            tangent, distance = float(wheel.slope_at(split)), y[beyond] - split
+            retreat = 0.5 * RETREAT * distance**2
+            z[beyond] = wheel.depth_at(split) + tangent * distance - retreat
+            slope[beyond] = tangent - RETREAT * distance
     return y, z, slope
 
 

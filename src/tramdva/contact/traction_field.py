@@ -66,7 +66,7 @@ def _march_strip(j, a, b, scale, creepages, flexibility, grid, field):
         trial_x = qx - length * rate_x
         trial_y = qy - length * (rate_y + rate_spin * grid.middle[k] * half)
         capacity = grid.bound_along[k] * limit
-        trial = np.hypot(trial_x, trial_y)
+        trial = np.sqrt(trial_x * trial_x + trial_y * trial_y)
         factor = capacity / trial if trial > capacity else 1.0
         new_x, new_y = trial_x * factor, trial_y * factor
         field.traction_x[k, j] = 0.5 * (qx + new_x)
