@@ -103,7 +103,8 @@ def grids():
         ours = best(lambda n, g=grid, w=work: _forces(n, FLEXIBILITY, g, w))
         reference = compiled_c(cells, strips)
         count = cells * strips
-        line = f"FASTSIM {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us  {ours / count * 1e9:5.1f} ns/cell"
+        line = f"FASTSIM {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us"
+        line += f"  {ours / count * 1e9:5.1f} ns/cell"
         if reference:
             line += f"   C {reference / count * 1e9:5.1f} ns/cell   ratio {ours / reference:4.2f}"
         print(line)
