@@ -1,6 +1,7 @@
 """Time of FASTSIM per cell and of one contact per call, beside plain compiled C.
 
-Run with OMP_NUM_THREADS=1 on a quiet machine; every figure is the best of several repeats. The C
+Run with OMP_NUM_THREADS=1; times are processor times of
+this process, the best of several repeats. The C
 reference is compiled by gcc if there is one and timed in the same run.
 """
 
@@ -28,9 +29,9 @@ def best(run, calls=CALLS):
     run(10)
     times = []
     for _ in range(REPEATS):
-        start = time.perf_counter()
+        start = time.process_time()
         run(calls)
-        times.append((time.perf_counter() - start) / calls)
+        times.append((time.process_time() - start) / calls)
     return min(times)
 
 
@@ -131,7 +132,7 @@ def contacts():
         print(f"contact {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us (43 kN at {angle:.0f} deg)")
         away = best(lambda n, a=(table, law, height + 1e-3, *scratch): _contacts(n, *a))
         print(f"        lifted off {away * 1e6:6.2f} us")
-    rows = np.zeros((4, 8))
+    rows = np.zeros((geometry.WINDOW, 8))
     print(f"geometry alone   {best(lambda n: _places(n, table, -height, rows)) * 1e6:6.2f} us")
     print(f"table of one zone {memory:.1f} MB")
 

@@ -64,7 +64,7 @@ def tram_pair():
 
 def first_contact(tables, shift, yaw=0.0):
     """Contact of the zone that touches first, its height, and the gap of the others in m."""
-    rows = np.zeros((4, 8))
+    rows = np.zeros((geometry.WINDOW, 8))
     heights = [geometry.touch_height(t, shift, 0.0, yaw, rows) for t in tables]
     zone = int(np.argmin(heights))
     found = geometry.locate_contact(tables[zone], shift, heights[zone], 0.0, yaw, rows)
