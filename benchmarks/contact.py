@@ -1,8 +1,7 @@
 """Time of FASTSIM per cell and of one contact per call, beside plain compiled C.
 
-Run with OMP_NUM_THREADS=1; times are processor times of
-this process, the best of several repeats. The C
-reference is compiled by gcc if there is one and timed in the same run.
+Run with OMP_NUM_THREADS=1; times are processor times of this process, the best of several repeats.
+The C reference is compiled by gcc if there is one and timed in the same run.
 """
 
 import ctypes

@@ -230,14 +230,14 @@ def _cell(table, axis, value):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
-def _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows):
+def _collapse(coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows):
     """Contract roll and yaw for as many shift coefficients from `start` on as there are rows.
 
     The shifts with all columns are one contiguous stretch of the flat table: with unsigned
     offsets and the length read from the array the loop compiles to vector instructions.
     """
-    flat, stack = table.coefficients.reshape(-1), rows.reshape(-1)
-    shape = table.coefficients.shape
+    flat, stack = coefficients.reshape(-1), rows.reshape(-1)
+    shape = coefficients.shape
     length = np.uint64(stack.size)
     stack[:] = 0.0
     for k in range(4):
@@ -283,7 +283,13 @@ def touch_height(table, shift, roll, yaw, rows):
     yaw_cell, yaw_fraction, _ = _cell(table, 2, tangent * tangent)
     start, t, _ = _cell(table, 0, shift + table.shear * tangent * tangent)
     _collapse(
-        table, start, roll_cell, _weights(roll_fraction), yaw_cell, _weights(yaw_fraction), rows
+        table.coefficients,
+        start,
+        roll_cell,
+        _weights(roll_fraction),
+        yaw_cell,
+        _weights(yaw_fraction),
+        rows,
     )
     return _height(rows, 0, t, table.step[0])[0]
 
@@ -321,7 +327,7 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     cell, t, shift_out = _cell(table, 0, shift)
     room = rows.shape[0] - 4  # rows beyond the four that are needed: the foot may move so far
     start = cell - room // 2
-    _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
+    _collapse(table.coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
     foot, step = shift, table.step[0]
     value, slope, bend = _height(rows, cell - start, t, step)
     steps = 3 if height > value - FAR else 0
@@ -332,7 +338,9 @@ def locate_contact(table, shift, height, roll, yaw, rows):
         cell, t, shift_out = _cell(table, 0, foot)
         if cell < start or cell > start + room:
             start = cell - room // 2
-            _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
+            _collapse(
+                table.coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows
+            )
         value, slope, bend = _height(rows, cell - start, t, step)
     cosine = 1.0 / np.sqrt(1.0 + slope * slope)
     penetration = (height - value - slope * (shift - foot)) * cosine

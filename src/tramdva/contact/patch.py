@@ -121,7 +121,7 @@ def tangential_forces(
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def contact_point(table, side, position, angles, radius_deviation, rows):
     """Contact in vehicle axes, before any force.
 
