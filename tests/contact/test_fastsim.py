@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tramdva.contact import creep_law, fastsim, kalker
+from tramdva.contact import fastsim, kalker, polach
+from tramdva.creep_force import friction_coefficient
 
 LOAD, FRICTION, LIMIT = 35e3, 0.35, 12250.0
 BOUNDS = ("balanced", "parabolic", "elliptic")
@@ -164,7 +165,7 @@ def test_falling_friction_curve_and_its_slope(forces, falling_friction):
     a, speed, mu_0, A, B = 4.1e-3, 3.908, 0.35, 0.36, 0.7
 
     def lateral(creepage, cells):
-        friction = creep_law.friction_coefficient(speed * creepage, mu_0, A, B)
+        friction = friction_coefficient(speed * creepage, mu_0, A, B)
         return forces(a, a, LOAD, friction, (0.0, creepage, 0.0), cells, cells)[1]
 
     sliding = falling_friction[falling_friction.ceta > 0.0099]
@@ -198,28 +199,26 @@ def test_bad_grids_are_refused_in_one_line(cells, strips, bound):
         fastsim.patch_grid(cells, strips, bound)
 
 
-def polach(nu_x, nu_y, phi, a=4e-3, b=4e-3, reductions=(1.0, 1.0)):
+def by_polach(nu_x, nu_y, phi, a=4e-3, b=4e-3, reductions=(1.0, 1.0)):
     coefficients = kalker.creep_coefficients(kalker.kalker_table(0.28), a / b)
     return np.array(
-        creep_law.polach_forces(
-            a, b, LOAD, FRICTION, nu_x, nu_y, phi, coefficients, 82e9, *reductions
-        )
+        polach.polach_forces(a, b, LOAD, FRICTION, nu_x, nu_y, phi, coefficients, 82e9, *reductions)
     )
 
 
 def test_polachs_limits():
     coefficients = kalker.creep_coefficients(kalker.kalker_table(0.28), 1.0)
-    assert_allclose(polach(0, 0, 0), 0.0, atol=0.0)
+    assert_allclose(by_polach(0, 0, 0), 0.0, atol=0.0)
     for i, creepages in enumerate([(1e-9, 0, 0), (0, 1e-9, 0)]):
         linear = -82e9 * 16e-6 * coefficients[i] * 1e-9
-        assert_allclose(polach(*creepages)[i], linear, rtol=1e-6)
-    assert_allclose(polach(0, 1e6, 0)[1], -LIMIT, rtol=1e-3)
+        assert_allclose(by_polach(*creepages)[i], linear, rtol=1e-6)
+    assert_allclose(by_polach(0, 1e6, 0)[1], -LIMIT, rtol=1e-3)
     spin = -82e9 * (16e-6) ** 1.5 * coefficients[2] * 1e-7
-    assert_allclose(polach(0, 0, 1e-7)[1], spin, rtol=1e-3)
+    assert_allclose(by_polach(0, 0, 1e-7)[1], spin, rtol=1e-3)
 
 
 def test_polach_against_contact_without_spin(contact_cases):
     for case in contact_cases[contact_cases.phi == 0].itertuples():
-        force = polach(case.nu_x, case.nu_y, 0.0, case.a, case.b)
+        force = by_polach(case.nu_x, case.nu_y, 0.0, case.a, case.b)
         error = np.hypot(force[0] - case.Fx, force[1] - case.Fy) / LIMIT
         assert error < 0.12  # full reduction factors; the formula has no exact saturation

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.contact import creep_law, fastsim, geometry, hertz, kalker, locus
+from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach
+from tramdva.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
 FASTSIM, POLACH = 0, 1
@@ -110,7 +111,7 @@ def tangential_forces(
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if law.method == POLACH:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
-        return creep_law.polach_forces(
+        return polach.polach_forces(
             a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
             coefficients, law.shear_modulus, law.polach[0], law.polach[1],
         )  # fmt: skip
@@ -207,9 +208,7 @@ def wheel_contact(
     normal = hertz.damped_normal_force(elastic, approach, law.damping_time)
     spin = cosine * rotation[2] - sine * rotation[1]
     slip = np.sqrt(v_x * v_x + v_t * v_t)
-    friction = creep_law.friction_coefficient(
-        slip, law.friction[0], law.friction[1], law.friction[2]
-    )
+    friction = friction_coefficient(slip, law.friction[0], law.friction[1], law.friction[2])
     nu_x, nu_y, phi = v_x / rolling_speed, v_t / rolling_speed, spin / rolling_speed
     force_x = force_t = moment_n = 0.0
     if normal > 0.0:

@@ -1,4 +1,4 @@
-"""Pictures of docs/contact.md: `python paper_figures/contact_pictures.py [folder]`.
+"""Pictures of docs/contact.md: `python docs/contact_pictures.py [folder]`.
 
 Everything is computed here in a few seconds; reference points are those of CONTACT in
 tests/reference/contact.
@@ -16,15 +16,16 @@ import pandas as pd
 
 from tramdva import wear
 from tramdva.contact import (
-    creep_law,
     fastsim,
     geometry,
     hertz,
     kalker,
+    polach,
     profiles,
     traction_field,
 )
 from tramdva.contact.measured_profile import measured_profile, read_points
+from tramdva.creep_force import friction_coefficient
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = ROOT / "tests" / "reference" / "contact"
@@ -196,12 +197,12 @@ def lateral_forces(creepage, a, friction, bound):
     )
 
 
-def polach(creepage, a, friction):
+def by_polach(creepage, a, friction):
     """Lateral force in N by Polach's formula."""
     coefficients = kalker.creep_coefficients(KALKER, 1.0)
     return np.array(
         [
-            -creep_law.polach_forces(a, a, LOAD, mu, 0.0, nu, 0.0, coefficients, 82e9, 1.0, 1.0)[1]
+            -polach.polach_forces(a, a, LOAD, mu, 0.0, nu, 0.0, coefficients, 82e9, 1.0, 1.0)[1]
             for nu, mu in zip(creepage, friction, strict=True)
         ]
     )
@@ -218,7 +219,7 @@ def picture_creep_curves(folder):
     falling = pd.read_csv(REFERENCE / "falling_friction.csv", comment="#")
     falling = falling[falling.method == "CONTACT"]
     wide = np.geomspace(1e-4, 0.1, 241)
-    mu = creep_law.friction_coefficient(3.908 * wide, 0.35, 0.36, 0.7)
+    mu = np.vectorize(friction_coefficient)(3.908 * wide, 0.35, 0.36, 0.7)
     for panel, creep, friction, a in ((axes[0], nu, constant, 4e-3), (axes[1], wide, mu, 4.1e-3)):
         for bound, color, style in (
             ("elliptic", PINK, "-"), ("balanced", BLUE, "-"), ("parabolic", GREEN, ":")
@@ -230,7 +231,7 @@ def picture_creep_curves(folder):
             panel.plot(
                 creep * 100, force, color=shade, ls=style, lw=width, label=f"FASTSIM, {bound}"
             )
-        force = polach(creep, a, friction) * 1e-3
+        force = by_polach(creep, a, friction) * 1e-3
         panel.plot(creep * 100, force, color=RED, ls="--", label="Polach, $k_A = k_S = 1$")
         panel.set_xlabel("lateral creepage / %")
     inside = pure[pure.ceta < 0.008]
@@ -267,7 +268,7 @@ def picture_wear(folder):
         penetration = hertz.penetration_of_force(table, along, 1 / radii[1], MODULUS, load)
         _, a, b = hertz.hertz_ellipse(table, along, 1 / radii[1], MODULUS, penetration)
         slip = SPEED * np.hypot(*creepages[:2])
-        mu = creep_law.friction_coefficient(slip, 0.35, 0.36, 0.7)
+        mu = friction_coefficient(slip, 0.35, 0.36, 0.7)
         field = cells(creepages, a, b, load, mu, 16)
         velocity = np.hypot(field.slip_x, field.slip_y) * SPEED
         shown = (field.area > 0) & (velocity > 0.01)
@@ -315,7 +316,7 @@ def draw_measured(path, kind, noise, picture):
 def main(folder: Path) -> None:
     """Write all pictures into `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
-    with plt.style.context(Path(__file__).with_name("tramdva.mplstyle")):
+    with plt.style.context(ROOT / "paper_figures" / "tramdva.mplstyle"):
         plt.rcParams["savefig.dpi"] = 180
         picture_profiles(folder)
         picture_geometry(folder)

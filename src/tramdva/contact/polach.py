@@ -1,18 +1,11 @@
-"""Friction coefficient and Polach's creep force of one contact, compiled scalar functions.
+"""Polach's creep force of one contact with longitudinal, lateral and spin creepage, compiled.
 
-Polach, Wear 258 (2005) 992-1000, and Proc. Instn Mech. Engrs 213 F (1999): one coefficient of
-friction per contact, falling with its slip velocity; force from the gradient of the tangential
-stress, with longitudinal, lateral and spin creepage.
+Polach, Proc. Instn Mech. Engrs 213 F (1999): force from the gradient of the tangential stress.
+`tramdva.creep_force` has the lateral force alone with its derivatives, and the friction law.
 """
 
 import numpy as np
 from numba import njit
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def friction_coefficient(slip_velocity, mu_0, A, B):
-    """mu = mu_0 ((1 - A) exp(-B w) + A) for the slip velocity w >= 0 in m/s; B in s/m."""
-    return mu_0 * ((1.0 - A) * np.exp(-B * slip_velocity) + A)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
