@@ -267,17 +267,9 @@ class AlgebraicCurve:
         """
         z, t = predicted.z, predicted.tangent
         for iteration in range(self._max_iterations + 1):
-            G = self._residual(z)
-            matrix = np.vstack([self._derivative(z), t])
-            if not np.isfinite(matrix).all() or not np.isfinite(G).all():
-                return None, iteration
-            # Both the Newton step and the new tangent from one factorisation.
-            rhs = np.zeros((len(z), 2))
-            rhs[:-1, 0] = -G
-            rhs[-1, 1] = 1.0
             try:
-                solution = np.linalg.solve(matrix, rhs)
-            except np.linalg.LinAlgError:
+                G, solution = self._newton(z, t)
+            except np.linalg.LinAlgError:  # singular, or not finite
                 return None, iteration
             size = np.abs(G).max()
             if size <= self._tolerance:
@@ -285,6 +277,20 @@ class AlgebraicCurve:
                 return CurvePoint(z + solution[:, 0], tangent, float(size)), iteration
             z = z + solution[:, 0]
         return None, self._max_iterations
+
+    def _newton(self, z: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """G(z), and from one factorisation Newton's step and the new tangent as columns.
+
+        Raises LinAlgError where the matrix is singular or anything is not finite.
+        """
+        G = self._residual(z)
+        matrix = np.vstack([self._derivative(z), t])
+        if not np.isfinite(matrix).all() or not np.isfinite(G).all():
+            raise np.linalg.LinAlgError("not finite")
+        rhs = np.zeros((len(z), 2))
+        rhs[:-1, 0] = -G
+        rhs[-1, 1] = 1.0
+        return G, np.linalg.solve(matrix, rhs)
 
     def test_functions(self, point: CurvePoint) -> Mapping[str, float]:
         """Test functions given at construction."""
