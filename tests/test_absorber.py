@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from wheelset_lines import paper, reference
+from wheelset_lines import paper, reference, sections
 
 from tramdva import absorber, stability
 from tramdva.wheelset import linearised
@@ -112,17 +112,8 @@ def test_h_infinity_gives_way_where_every_absorber_is_self_excited():
 
 
 def test_table_of_designs_marks_what_is_self_excited():
-    p = paper()
     cfg = {
-        "curve": {"r_C": p.r_C, "gamma": p.gamma, "outer_speed": p.Omega * p.r_C},
-        "creep_force": {
-            **{name: getattr(p, name) for name in ("F_N", "mu_0", "A", "B", "k_A", "k_S")},
-            "a": 4.2e-3,
-            "b": 4.2e-3,
-            "G": 8.2e10,
-            "c_22": 3.7,
-        },
-        "wheelset": {n: getattr(p, n) for n in ("m_A", "m_R", "c_A", "d_A", "c_R", "d_R", "L")},
+        **sections(paper()),
         "absorber": {"m_T": 40.0, "c_T": 1e9, "d_T": 1.0},
         "forced_excitation": {"B": 0.4},
         "study": {"frequency": {"min": 1.0, "max": 300.0}},

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
-from test_self_excitation import sections
-from wheelset_lines import paper, reference
+from wheelset_lines import paper, reference, sections
 
 from tramdva import critical_absorber, stability
 from tramdva.self_excitation import solve_hopf_point

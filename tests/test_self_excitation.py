@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
-from wheelset_lines import paper, reference
+from wheelset_lines import paper, reference, sections
 
 from tramdva import self_excitation, stability, wheelset
 
@@ -105,19 +105,3 @@ def test_stage_starts_from_the_sign_changes_of_the_map():
     expected = [float(row["c_A_direct"]) for row in HOPF_POINTS]
     assert_allclose(out["c_A"], expected, rtol=5e-11)
     assert set(out["status"]) == {"converged"}
-
-
-def sections(p):
-    """Sections of a line's configuration from its parameter vector."""
-    return {
-        "curve": {"r_C": p.r_C, "gamma": p.gamma, "outer_speed": p.Omega * p.r_C},
-        "creep_force": {
-            **{name: getattr(p, name) for name in ("F_N", "mu_0", "A", "B", "k_A", "k_S")},
-            "a": 4.2e-3,
-            "b": 4.2e-3,
-            "G": 8.2e10,
-            "c_22": 3.7,
-        },
-        "wheelset": {name: getattr(p, name) for name in ("m_A", "m_R", "d_A", "c_R", "d_R", "L")},
-        "absorber": {"m_T": p.m_T},
-    }

@@ -4,7 +4,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
-from wheelset_lines import paper
+from wheelset_lines import paper, sections
 
 from tramdva import stability
 from tramdva.wheelset import linearised
@@ -69,7 +69,7 @@ def test_characteristic_polynomial_has_the_eigenvalues_as_roots(mounted):
 def test_map_agrees_with_eigenvalues_at_every_grid_point():
     axis = {"min": 1e5, "max": 2.5e8}
     cfg = {
-        **_sections(),
+        **sections(paper()),
         "absorber_variants": [
             {"name": f"case_{i}", "c_T": c_T, "d_T": d_T} for i, (c_T, d_T) in enumerate(VARIANTS)
         ],
@@ -110,21 +110,3 @@ def test_no_equilibrium_is_no_number():
     leading = stability.leading_eigenvalues(paper(c_A=10.0), with_absorber=False)
     assert np.isnan(leading)
     assert stability.classify(leading) == stability.NO_EQUILIBRIUM
-
-
-def _sections():
-    p = paper()
-    return {
-        "curve": {"r_C": p.r_C, "gamma": p.gamma, "outer_speed": p.Omega * p.r_C},
-        "creep_force": {
-            **{name: getattr(p, name) for name in ("F_N", "mu_0", "A", "B", "k_A", "k_S")},
-            "a": 4.2e-3,
-            "b": 4.2e-3,
-            "G": 8.2e10,
-            "c_22": 3.7,
-        },
-        "wheelset": {
-            name: getattr(p, name) for name in ("m_A", "m_R", "c_A", "d_A", "c_R", "d_R", "L")
-        },
-        "absorber": {"m_T": p.m_T},
-    }
