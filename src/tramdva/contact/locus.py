@@ -1,0 +1,166 @@
+"""Where a wheel touches a rail: one column of the contact table, computed directly.
+
+A wheel yawed by gamma touches a prismatic rail on its silhouette along the rail: of the circle
+through profile point s with radius r and slope r' the point at the forward angle theta with
+sin(theta) = -r' tan(gamma). So contact in space becomes contact of two plane curves. Axes: x
+forward, o outwards (field side), d downwards; yaw gamma > 0 turns the heading outwards, towards
+flange contact; roll > 0 lowers the outer side, about the profile's origin.
+
+Along the wheel the gap G of the two curves is averaged with the weights
+exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the mean position stands for the
+centre of the patch, the variance for the curvature that the patch sees, and the height at touch is
+the soft minimum of the gap, -epsilon log(integral of the weights): its slope in the shift is the
+mean contact angle. It equals the rigid height where the curvature sum is `REFERENCE_CURVATURE`
+(1/m); elsewhere it differs by (epsilon / 2) log of the ratio. `epsilon` belongs to a load: a Hertz
+pressure whose patch closes a gap h at its rim has the variance of epsilon = 2 h / 5.
+"""
+
+import numpy as np
+from numba import njit
+
+CUT = 30.0
+REFERENCE_CURVATURE = 10.0
+HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE = range(6)
+COLUMNS = 6
+STRIDE = 8  # columns per table entry, padded to whole vector registers
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def silhouette(position, depth, slope, radius, yaw_tangent_squared, roll, outward, downward):
+    """Plane curve of a yawed and rolled wheel, seen along the rail.
+
+    Parameters
+    ----------
+    position, depth, slope : (n,) arrays of the wheel profile, m
+    radius : m, at the origin of the profile
+    yaw_tangent_squared : tan(gamma)^2; small negative values continue the table smoothly
+    roll : rad
+    outward, downward : (n,) arrays, receive the curve relative to the profile origin, m
+    """
+    t = yaw_tangent_squared
+    cosine = 1.0 / np.sqrt(1.0 + t)
+    roll_cosine, roll_sine = np.cos(roll), np.sin(roll)
+    for i in range(position.size):
+        local = radius + depth[i]
+        sine_squared = slope[i] * slope[i] * t
+        o = position[i] * cosine - local * slope[i] * t * cosine
+        d = local * np.sqrt(max(1.0 - sine_squared, 0.0)) - radius
+        outward[i] = o * roll_cosine - d * roll_sine
+        downward[i] = o * roll_sine + d * roll_cosine
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _rail_depth(first, spacing, depth, slope, position):
+    """Cubic Hermite value on the rail's grid; straight beyond its ends."""
+    scaled = (position - first) / spacing
+    last = depth.size - 1
+    if scaled <= 0.0:
+        return depth[0] + slope[0] * (position - first)
+    if scaled >= last:
+        return depth[last] + slope[last] * (position - first - last * spacing)
+    i = int(scaled)
+    t = scaled - i
+    left, right = slope[i] * spacing, slope[i + 1] * spacing
+    jump = depth[i + 1] - depth[i]
+    return depth[i] + t * (
+        left + t * (3.0 * jump - 2.0 * left - right + t * (left + right - 2.0 * jump))
+    )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gap_minimum(outward, downward, shift, first, spacing, depth, slope, gap):
+    """Fill the gap G at every wheel point; index of its minimum."""
+    best = 0
+    for i in range(outward.size):
+        room = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
+        gap[i] = room
+        if room < gap[best]:
+            best = i
+    return best
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def arc_lengths(outward, downward, length, cosine):
+    """Length along the silhouette and cosine of its inclination at every point.
+
+    Points on the hidden loop of a narrow root at large yaw run backwards and get length zero.
+    """
+    last = outward.size - 1
+    for i in range(outward.size):
+        before, after = max(i - 1, 0), min(i + 1, last)
+        spread = 0.5 * (outward[after] - outward[before])
+        rise = 0.5 * (downward[after] - downward[before])
+        arc = np.sqrt(spread * spread + rise * rise)
+        length[i] = arc if spread > 0.0 else 0.0
+        cosine[i] = max(spread / arc, 0.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, epsilon, gap, out):
+    """Quasi-elastic contact of a wheel shifted by `shift` on a rail.
+
+    Parameters
+    ----------
+    curve : (4, n) silhouette: outwards, downwards, length, cosine
+    wheel_position, wheel_depth : (n,) the profile coordinates of the silhouette's points
+    shift : m, lateral position of the wheel's origin relative to the rail's, outwards
+    rail_grid : (first, spacing) in m; rail : (2, k) depth and slope on it
+    epsilon : m, gap scale of the averaging
+    gap : (n,) scratch array
+    out : (COLUMNS,) array, receives height of the wheel's origin at touch (downwards), contact
+        position and depth on the wheel (its own axes) and on the rail, and ln of the lateral
+        curvature sum in 1/m
+    """
+    first, spacing = rail_grid
+    best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
+    total = mean_wheel = mean_depth = mean_offset = square = steepness = 0.0
+    lowest, centre = gap[best], curve[0, best]
+    for i in range(gap.size):
+        exponent = (gap[i] - lowest) * curve[3, i] / epsilon
+        if exponent > CUT or curve[2, i] == 0.0:
+            continue
+        weight = curve[2, i] * np.exp(-exponent)
+        offset = curve[0, i] - centre
+        total += weight
+        mean_wheel += weight * wheel_position[i]
+        mean_depth += weight * wheel_depth[i]
+        mean_offset += weight * offset
+        square += weight * offset * offset
+        steepness += weight * curve[3, i]
+    mean_offset /= total
+    variance = max(square / total - mean_offset * mean_offset, spacing * spacing)
+    cosine = steepness / total
+    width = np.sqrt(2.0 * np.pi * epsilon / REFERENCE_CURVATURE)
+    out[HEIGHT] = lowest - epsilon / cosine * np.log(total / width)
+    out[WHEEL_POSITION] = mean_wheel / total
+    out[WHEEL_DEPTH] = mean_depth / total
+    out[RAIL_POSITION] = shift + centre + mean_offset
+    out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
+    out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def fill_table(wheel, radius, rail_grid, rail, shifts, rolls, yaw_tangents_squared, epsilon, table):
+    """Fill `table` of shape (shifts, rolls, yaws, STRIDE) by `contact_column`.
+
+    `wheel` is a (3, n) array: position, depth and slope of the profile.
+    """
+    curve = np.empty((4, wheel.shape[1]))
+    gap = np.empty(wheel.shape[1])
+    for k in range(rolls.size):
+        for m in range(yaw_tangents_squared.size):
+            tangent = yaw_tangents_squared[m]
+            silhouette(wheel[0], wheel[1], wheel[2], radius, tangent, rolls[k], curve[0], curve[1])
+            arc_lengths(curve[0], curve[1], curve[2], curve[3])
+            for i in range(shifts.size):
+                contact_column(
+                    curve,
+                    wheel[0],
+                    wheel[1],
+                    shifts[i],
+                    rail_grid,
+                    rail,
+                    epsilon,
+                    gap,
+                    table[i, k, m],
+                )

@@ -1,0 +1,159 @@
+"""Measured profiles: reader of two-column files and the smoothing spline."""
+
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import make_smoothing_spline
+
+from tramdva.contact.profiles import MM, STEEPEST, Profile, ProfileError, resample
+
+FEWEST_POINTS = 20
+SMALLEST_EXTENT_MM = 20.0
+LARGEST_EXTENT_MM = 250.0
+LARGEST_GAP_MM = 5.0
+
+
+def read_points(path: str | Path) -> np.ndarray:
+    """Read and check a profile file.
+
+    Parameters
+    ----------
+    path : text file; two columns y (outwards) and z (downwards) in mm, separated by blanks,
+        commas or semicolons; `#`, `!` and `%` start comments; y strictly monotone
+
+    Returns
+    -------
+    (n, 2) array in mm, y increasing.
+    """
+    path = Path(path)
+    points, lines = [], []
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ProfileError(f"{path}: cannot be read as text ({error})") from None
+    for number, line in enumerate(text.splitlines(), start=1):
+        values = _parse(path, number, line)
+        if values is not None:
+            points.append(values)
+            lines.append(number)
+    _check_size(path, points)
+    array = np.array(points)
+    if array[-1, 0] < array[0, 0]:
+        array, lines = array[::-1].copy(), lines[::-1]
+    _check_order(path, array, lines)
+    return array
+
+
+def _parse(path, number, line):
+    for comment in "#!%":
+        line = line.split(comment)[0]
+    fields = line.replace(",", " ").replace(";", " ").split()
+    if not fields:
+        return None
+    if len(fields) != 2:
+        raise ProfileError(
+            f"{path}, line {number}: {len(fields)} columns; two are needed, y and z in mm"
+        )
+    try:
+        values = float(fields[0]), float(fields[1])
+    except ValueError:
+        raise ProfileError(
+            f"{path}, line {number}: '{line.strip()}' is not a pair of numbers y z in mm"
+        ) from None
+    if not np.all(np.isfinite(values)):
+        raise ProfileError(f"{path}, line {number}: '{line.strip()}' must be finite")
+    return values
+
+
+def _check_size(path, points):
+    if len(points) < FEWEST_POINTS:
+        raise ProfileError(
+            f"{path}: {len(points)} points; at least {FEWEST_POINTS} are needed for a profile"
+        )
+    y = [point[0] for point in points]
+    extent = max(y) - min(y)
+    if not SMALLEST_EXTENT_MM <= extent <= LARGEST_EXTENT_MM:
+        raise ProfileError(
+            f"{path}: the profile is {extent:g} wide; lengths must be in mm, "
+            f"{SMALLEST_EXTENT_MM:g} to {LARGEST_EXTENT_MM:g}"
+        )
+
+
+def _check_order(path, array, lines):
+    step = np.diff(array[:, 0])
+    if np.any(step <= 0.0):
+        bad = int(np.argmax(step <= 0.0))
+        here, before = array[bad + 1, 0], array[bad, 0]
+        what = "repeats or overlaps" if here == before else "is out of order after"
+        raise ProfileError(
+            f"{path}, line {lines[bad + 1]}: y = {here:g} {what} y = {before:g}; "
+            "y must increase or decrease throughout"
+        )
+    if np.any(step > LARGEST_GAP_MM):
+        bad = int(np.argmax(step > LARGEST_GAP_MM))
+        raise ProfileError(
+            f"{path}, line {lines[bad + 1]}: gap of {step[bad]:g} mm in y; "
+            f"at most {LARGEST_GAP_MM:g} mm"
+        )
+
+
+def measured_profile(
+    path: str | Path, kind: str, noise: float = 0.01e-3, origin: tuple[float, float] = (0.0, 0.0)
+) -> Profile:
+    """Profile from a measured file, smoothed.
+
+    Parameters
+    ----------
+    path : see `read_points`
+    kind : 'wheel' or 'rail'
+    noise : m, expected standard deviation of the measured points; 0 interpolates
+    origin : m, (position, depth) in the file of the tape circle or of the rail's top
+
+    Notes
+    -----
+    A cubic smoothing spline over the arc length of the points, position and depth each, with the
+    penalty (of the second derivative) chosen by bisection so that the rms distance of spline and
+    points equals `noise`. Parts steeper than 78 degrees are left out.
+    """
+    if kind not in ("wheel", "rail"):
+        raise ProfileError(f"{path}: kind '{kind}' is unknown; allowed: wheel, rail")
+    points = read_points(path) * MM - np.asarray(origin)
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    fine = np.linspace(0.0, arc[-1], max(2000, 20 * arc.size))
+    y_spline, z_spline = _smooth(arc, points, noise)
+    dy, dz = y_spline(fine, 1), z_spline(fine, 1)
+    if np.any(dy <= 0.0):
+        bad = float(y_spline(fine[np.argmax(dy <= 0.0)])) / MM
+        raise ProfileError(
+            f"{path}: the smoothed profile turns back near y = {bad:.2f} mm; cut undercut parts"
+        )
+    keep = np.abs(dz / dy) < 2.0 * STEEPEST
+    return resample(
+        f"measured {Path(path).name}",
+        kind,
+        y_spline(fine)[keep],
+        z_spline(fine)[keep],
+        (dz / dy)[keep],
+    )
+
+
+def _smooth(arc, points, noise):
+    """Smoothing splines y(arc), z(arc) whose rms distance from the points is `noise`."""
+    scale = arc[-1] / arc.size
+
+    def fit(log_penalty):
+        penalty = 10.0**log_penalty * scale**3
+        pair = [make_smoothing_spline(arc / scale, p, lam=penalty / scale**3) for p in points.T]
+        off = np.hypot(*(spline(arc / scale) - p for spline, p in zip(pair, points.T)))
+        return pair, np.sqrt(np.mean(off**2))
+
+    low, high = -8.0, 8.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if fit(middle)[1] < noise else (low, middle)
+    pair = fit(low)[0]
+    return tuple(_rescaled(spline, scale) for spline in pair)
+
+
+def _rescaled(spline, scale):
+    return lambda arc, order=0: spline(arc / scale, order) / scale**order

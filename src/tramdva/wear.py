@@ -1,0 +1,175 @@
+"""KTH wear of one wheel passage: the wear chart of Jendel and Archard's law per cell.
+
+A point of the wheel that crosses the patch slides |s| dx in every cell of length dx (|s|: slip
+velocity over rolling speed) and loses the depth (Archard)
+
+    dz = k(p, v) p |s| dx / H,      v = |s| V,
+
+with the Hertzian pressure p, hardness H and the wear coefficient k of the chart (Jendel, Wear
+253, 2002). Depths are per passage, that is per revolution for a point of the wheel.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from tramdva.contact.traction_field import TractionField
+
+REGIONS = ("mild", "severe", "mild_fast", "seizure")
+CHART, SMOOTHED, CONSTANT = 0, 1, 2
+METHODS = {"chart": CHART, "smoothed": SMOOTHED, "constant": CONSTANT}
+PARAMETER_COUNT = 13
+
+
+@dataclass(frozen=True)
+class WearChart:
+    """Wear coefficients and limits of the KTH chart.
+
+    Attributes
+    ----------
+    hardness : Pa, of the softer body
+    coefficient_mild, coefficient_severe, coefficient_mild_fast, coefficient_seizure :
+        dimensionless k of the four regions
+    velocity_low, velocity_high : m/s, limits of the severe region
+    pressure_share : seizure above this share of the hardness
+    velocity_width, pressure_width_share : half-width of the smoothed steps, m/s and share of H
+    coefficient_constant : dimensionless, for the method 'constant'
+    method : 'chart', 'smoothed' or 'constant'
+    """
+
+    hardness: float = 2.7e9  # ASSUME: wheel steel, 2.6 to 3.0 GPa
+    coefficient_mild: float = 5e-4  # ASSUME: middle of 1-10e-4, chart of Jendel
+    coefficient_severe: float = 35e-4  # ASSUME: middle of 30-40e-4
+    coefficient_mild_fast: float = 5e-4  # ASSUME: middle of 1-10e-4
+    coefficient_seizure: float = 350e-4  # ASSUME: middle of 300-400e-4
+    velocity_low: float = 0.2
+    velocity_high: float = 0.7
+    pressure_share: float = 0.8
+    velocity_width: float = 0.05  # ASSUME: the chart gives sharp steps
+    pressure_width_share: float = 0.05  # ASSUME: the chart gives sharp steps
+    coefficient_constant: float = 5e-4  # ASSUME: the mild coefficient
+    method: str = "chart"
+
+    def __post_init__(self):
+        if self.method not in METHODS:
+            raise ValueError(f"wear method '{self.method}' is unknown; allowed: {list(METHODS)}")
+        for name, value in self.__dict__.items():
+            if name != "method" and not (np.isfinite(value) and value > 0.0):
+                raise ValueError(f"wear chart: {name} = {value} must be finite and positive")
+        if self.velocity_low + self.velocity_width > self.velocity_high - self.velocity_width:
+            raise ValueError("wear chart: velocity_low and velocity_high are too close together")
+
+    def as_array(self) -> np.ndarray:
+        """Plain numbers for the compiled functions, SI, in the order of the attributes."""
+        numbers = [value for name, value in self.__dict__.items() if name != "method"]
+        return np.array([*numbers, float(METHODS[self.method]), 0.0])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wear_region(pressure, slip_velocity, chart):
+    """Index into REGIONS for pressure in Pa and slip velocity in m/s."""
+    if pressure > chart[7] * chart[0]:
+        return 3
+    if slip_velocity < chart[5]:
+        return 0
+    return 1 if slip_velocity <= chart[6] else 2
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _step(x, width):
+    """Smooth step from 0 at -width to 1 at +width with continuous slope."""
+    t = min(max(0.5 * (x / width + 1.0), 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wear_coefficient(pressure, slip_velocity, chart):
+    """Dimensionless wear coefficient k for pressure in Pa and slip velocity in m/s."""
+    method = int(chart[11])
+    if method == CONSTANT:
+        return chart[10]
+    if method == CHART:
+        return chart[1 + wear_region(pressure, slip_velocity, chart)]
+    low = _step(slip_velocity - chart[5], chart[8])
+    high = _step(slip_velocity - chart[6], chart[8])
+    k = chart[1] + low * (chart[2] - chart[1]) + high * (chart[3] - chart[2])
+    seizure = _step(pressure / chart[0] - chart[7], chart[9])
+    return k + seizure * (chart[4] - k)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def archard_depth(field, rolling_speed, chart, strip_depth):
+    """Wear depth of every strip for one passage of the patch.
+
+    Parameters
+    ----------
+    field : TractionField of the patch
+    rolling_speed : m/s
+    chart : from `WearChart.as_array`
+    strip_depth : (strips,) array, receives the depth in m
+
+    Returns
+    -------
+    worn_area : cross-section of removed material in m^2 (depth integrated across the patch;
+        times 2 pi R the volume of one revolution).
+    """
+    strip_depth[:] = 0.0
+    worn_area = 0.0
+    for k in range(field.area.shape[0]):
+        for j in range(field.area.shape[1]):
+            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            if slip == 0.0 or field.length_x[k, j] == 0.0:
+                continue
+            pressure = field.pressure[k, j]
+            coefficient = wear_coefficient(pressure, slip * abs(rolling_speed), chart)
+            depth = coefficient * pressure * slip * field.length_x[k, j] / chart[0]
+            strip_depth[j] += depth
+            worn_area += depth * field.area[k, j] / field.length_x[k, j]
+    return worn_area
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def region_areas(field, rolling_speed, chart, areas):
+    """Area in m^2 of the patch in every region of the chart, and of adhesion.
+
+    `areas` is a (5,) array: the four REGIONS (cells that slide), then cells without slip.
+    """
+    areas[:] = 0.0
+    for k in range(field.area.shape[0]):
+        for j in range(field.area.shape[1]):
+            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            region = 4
+            if slip > 0.0:
+                region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)
+            areas[region] += field.area[k, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def mean_depth(worn_area, semi_axis_lateral):
+    """Wear depth in m averaged over the width 2 b of the patch."""
+    return worn_area / (2.0 * semi_axis_lateral) if semi_axis_lateral > 0.0 else 0.0
+
+
+def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) -> dict[str, float]:
+    """Share of the patch area in each region, and `adhesion`; sums to one in contact."""
+    areas = np.zeros(5)
+    region_areas(field, rolling_speed, chart.as_array(), areas)
+    total = areas.sum()
+    names = (*REGIONS, "adhesion")
+    return {name: area / total if total > 0.0 else 0.0 for name, area in zip(names, areas)}
+
+
+def region_time_shares(
+    shares: np.ndarray, contact_time: np.ndarray | None = None
+) -> dict[str, float]:
+    """Share of time and patch in each region.
+
+    Parameters
+    ----------
+    shares : (times, 5) patch shares (the four regions and adhesion) at equal time steps
+    contact_time : (times,) weights, for example step sizes in s; equal steps if omitted
+    """
+    weight = np.ones(len(shares)) if contact_time is None else np.asarray(contact_time)
+    mean = weight @ np.asarray(shares) / weight.sum()
+    return dict(zip((*REGIONS, "adhesion"), mean))
