@@ -157,7 +157,8 @@ def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) 
     region_areas(field, rolling_speed, chart.as_array(), areas)
     total = areas.sum()
     names = (*REGIONS, "adhesion")
-    return {name: area / total if total > 0.0 else 0.0 for name, area in zip(names, areas)}
+    shares = areas / total if total > 0.0 else areas
+    return dict(zip(names, shares, strict=True))
 
 
 def region_time_shares(
@@ -172,4 +173,4 @@ def region_time_shares(
     """
     weight = np.ones(len(shares)) if contact_time is None else np.asarray(contact_time)
     mean = weight @ np.asarray(shares) / weight.sum()
-    return dict(zip((*REGIONS, "adhesion"), mean))
+    return dict(zip((*REGIONS, "adhesion"), mean, strict=True))

@@ -48,8 +48,9 @@ def polach_forces(
     -----
     With nu_yc = nu_y + phi a where |nu_y + phi a| > |nu_y|, else nu_y, and nu_c = |(nu_x, nu_yc)|::
 
-        F   = (2 mu N / pi) (k_A e / (1 + (k_A e)^2) + atan(k_S e)),  e = G pi a b c_jj nu_c / (4 mu N)
-        F_x = F nu_x / nu_c,   F_y = F nu_y / nu_c + F_spin
+        F   = (2 mu N / pi) (k_A e / (1 + (k_A e)^2) + atan(k_S e))
+        e   = G pi a b c_jj nu_c / (4 mu N)
+        F_x = -F nu_x / nu_c,   F_y = -F nu_y / nu_c + F_spin
         c_jj = sqrt((C11 nu_x / nu)^2 + (C22 nu_y / nu)^2)
         F_spin = (9/16) a mu N K_M (1 + 6.3 (1 - exp(-a/b))) phi / nu_c,
         K_M = |e_s| (d^3/3 - d^2/2 + 1/6) - (1/3) sqrt((1 - d^2)^3),  d = (e_s^2 - 1)/(e_s^2 + 1),
@@ -80,4 +81,4 @@ def polach_forces(
     k_m = abs(e_s) * (d * d * d / 3.0 - 0.5 * d * d + 1.0 / 6.0)
     k_m -= (1.0 - d * d) ** 1.5 / 3.0
     spin = 9.0 / 16.0 * a * limit * k_m * shape * phi / nu_c
-    return -force * nu_x / nu_c, -(force * nu_y / nu_c + spin), 0.0
+    return -force * nu_x / nu_c, -force * nu_y / nu_c + spin, 0.0

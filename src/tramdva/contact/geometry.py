@@ -10,6 +10,7 @@ contact); a conformal root has one.
 Tables are tensor-product cubic B-splines: h has two continuous derivatives.
 """
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from tramdva.contact.profiles import MM, Profile, ProfileError
 
 PADS = (8, 6, 3)
 WHEEL_STRIDE = 4
+SHEAR_ANGLE = np.radians(60.0)
 SPLIT_BARRIER = 2.0
 SPLIT_DISTANCE = 4e-3
 SPLIT_TOLERANCE = 0.06e-3  # covers one step of shift at a jump from tread to flank
@@ -34,6 +36,8 @@ class ContactTable(NamedTuple):
     first, step : (3,) arrays, node 0 and spacing of shift in m, roll in rad, tan(yaw)^2
     low, high : (3,) arrays, range of validity
     wheel_radius : m, at the profile's origin
+    shear : m, shift of the table per tan(yaw)^2; it follows the flank of a yawed wheel, which
+        comes forward by R tan(delta) tan(yaw)^2 / 2
     """
 
     coefficients: np.ndarray
@@ -42,6 +46,7 @@ class ContactTable(NamedTuple):
     low: np.ndarray
     high: np.ndarray
     wheel_radius: float
+    shear: float
 
 
 def zone_splits(
@@ -84,7 +89,7 @@ def _two_point_barriers(curve, wheel_position, rail, shift):
     low = np.flatnonzero((gap[1:-1] < gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
     low = low[gap[low] < gap.min() + SPLIT_TOLERANCE]
     barriers = []
-    for left, right in zip(low[:-1], low[1:]):
+    for left, right in itertools.pairwise(low):
         top = left + int(np.argmax(gap[left:right]))
         barriers.append((gap[top] - max(gap[left], gap[right]), float(y[inside][top])))
     return barriers
@@ -107,11 +112,11 @@ def contact_tables(
     wheel_radius: float,
     shift_range: tuple[float, float] = (-10e-3, 10e-3),
     roll_limit: float = 0.015,
-    yaw_limit: float = 0.06,
+    yaw_limit: float = 0.05,
     gap_scale: float = 8e-6,
     shift_step: float = 0.05e-3,
     roll_step: float = 2.5e-3,
-    yaw_nodes: int = 4,
+    yaw_nodes: int = 11,
     splits: tuple[float, ...] | None = None,
     split_yaw: tuple[float, ...] = (0.0,),
 ) -> tuple[ContactTable, ...]:
@@ -143,8 +148,13 @@ def contact_tables(
         _axis(0.0, np.tan(yaw_limit) ** 2, np.tan(yaw_limit) ** 2 / (yaw_nodes - 1), PADS[2]),
     )
     ends = (None, *splits, None)
-    zones = [_zone(wheel, inner, outer) for outer, inner in zip(ends[:-1], ends[1:])]
-    return tuple(_table(zone, rail, wheel_radius, axes, gap_scale) for zone in zones)
+    zones = [_zone(wheel, inner, outer) for outer, inner in itertools.pairwise(ends)]
+    flank = 0.5 * wheel_radius * np.tan(SHEAR_ANGLE)
+    shears = [0.0] * (len(zones) - 1) + [flank]
+    return tuple(
+        _table(zone, rail, wheel_radius, shear, axes, gap_scale)
+        for zone, shear in zip(zones, shears, strict=True)
+    )
 
 
 def _check(wheel, rail, wheel_radius, gap_scale):
@@ -163,7 +173,7 @@ def _axis(low, high, step, pads):
     return low + step * np.arange(-pads, count + pads + 1), low, high, step
 
 
-def _table(zone, rail, wheel_radius, axes, gap_scale):
+def _table(zone, rail, wheel_radius, shear, axes, gap_scale):
     nodes = [axis[0] for axis in axes]
     values = np.zeros((*(axis.size for axis in nodes), locus.STRIDE))
     points = np.ascontiguousarray(np.array(zone)[:, ::WHEEL_STRIDE])
@@ -171,6 +181,7 @@ def _table(zone, rail, wheel_radius, axes, gap_scale):
     locus.fill_table(
         points,
         wheel_radius,
+        shear,
         (rail.position[0], spacing),
         np.array([rail.depth, rail.slope]),
         *nodes,
@@ -188,6 +199,7 @@ def _table(zone, rail, wheel_radius, axes, gap_scale):
         low=np.array([axis[1] for axis in axes]),
         high=np.array([axis[2] for axis in axes]),
         wheel_radius=wheel_radius,
+        shear=shear,
     )
 
 
@@ -205,8 +217,9 @@ def _weights(t):
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def _cell(table, axis, value):
-    """First coefficient, fraction and status on an axis; held at the ends of the range."""
-    held = min(max(value, table.low[axis]), table.high[axis])
+    """First coefficient, fraction and status on an axis; held at the ends, also for NaN."""
+    held = value if value > table.low[axis] else table.low[axis]
+    held = held if held < table.high[axis] else table.high[axis]
     scaled = (held - table.first[axis]) / table.step[axis]
     index = int(scaled)
     return index - 1, scaled - index, held != value
@@ -245,6 +258,22 @@ def _height(rows, t, step):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def touch_height(table, shift, roll, yaw, rows):
+    """Height in m (downwards) of the wheel's origin at first touch; arguments as `locate_contact`.
+
+    Held at the ends of the table outside its range.
+    """
+    tangent = np.tan(yaw)
+    roll_cell, roll_fraction, _ = _cell(table, 1, roll)
+    yaw_cell, yaw_fraction, _ = _cell(table, 2, tangent * tangent)
+    start, t, _ = _cell(table, 0, shift + table.shear * tangent * tangent)
+    _collapse(
+        table, start, roll_cell, _weights(roll_fraction), yaw_cell, _weights(yaw_fraction), rows
+    )
+    return _height(rows, t, table.step[0])[0]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def locate_contact(table, shift, height, roll, yaw, rows):
     """Contact of one zone at a relative position.
 
@@ -272,6 +301,7 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     tangent = np.tan(yaw)
     yaw_cell, yaw_fraction, yaw_out = _cell(table, 2, tangent * tangent)
     roll_weights, yaw_weights = _weights(roll_fraction), _weights(yaw_fraction)
+    shift += table.shear * tangent * tangent
     start, t, shift_out = _cell(table, 0, shift)
     _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
     foot, step = shift, table.step[0]
@@ -280,7 +310,6 @@ def locate_contact(table, shift, height, roll, yaw, rows):
         residual = foot - shift + (value - height) * slope
         stiffness = 1.0 + slope * slope + (value - height) * bend
         foot -= residual / max(stiffness, 0.5)
-        foot = min(max(foot, shift - 8.0 * step), shift + 8.0 * step)
         cell, t, shift_out = _cell(table, 0, foot)
         if cell != start:
             start = cell

@@ -72,7 +72,7 @@ def ellipse_functions(log_curvature_ratio: float) -> np.ndarray:
 
 def hertz_table() -> np.ndarray:
     """Table of c_N, c_a, c_b over ln(B / A) for `hertz_ellipse`, relative error below 1e-7."""
-    count = int(round(2.0 * LOG_RATIO_LIMIT / LOG_RATIO_STEP)) + 1
+    count = round(2.0 * LOG_RATIO_LIMIT / LOG_RATIO_STEP) + 1
     nodes = np.linspace(-LOG_RATIO_LIMIT, LOG_RATIO_LIMIT, count)
     values = np.array([ellipse_functions(node) for node in nodes])
     return sample_spline(nodes, values, -LOG_RATIO_LIMIT, LOG_RATIO_STEP, count)

@@ -52,8 +52,9 @@ def hermite(table, index, fraction, column):
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def locate(table, first, step, position):
-    """Cell index and fraction of `position`, held at the ends of the table."""
-    scaled = (position - first) / step
-    scaled = min(max(scaled, 0.0), table.shape[0] - 1.000001)
+    """Cell index and fraction of `position`, held at the ends of the table, also for NaN."""
+    scaled, last = (position - first) / step, table.shape[0] - 1.000001
+    scaled = scaled if scaled > 0.0 else 0.0
+    scaled = scaled if scaled < last else last
     index = int(scaled)
     return index, scaled - index

@@ -18,7 +18,9 @@ pressure whose patch closes a gap h at its rim has the variance of epsilon = 2 h
 import numpy as np
 from numba import njit
 
-CUT = 30.0
+CUT = 20.0  # weights below exp(-CUT) are left out
+COARSE = 5  # points of the wheel per stretch of the first search
+MARGIN = 4e-3  # m, gap above the lowest beyond which a stretch is left out
 REFERENCE_CURVATURE = 10.0
 HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE = range(6)
 COLUMNS = 6
@@ -52,7 +54,7 @@ def silhouette(position, depth, slope, radius, yaw_tangent_squared, roll, outwar
 @njit(cache=True, nogil=True, error_model="numpy")
 def _rail_depth(first, spacing, depth, slope, position):
     """Cubic Hermite value on the rail's grid; straight beyond its ends."""
-    scaled = (position - first) / spacing
+    scaled = (position - first) * (1.0 / spacing)
     last = depth.size - 1
     if scaled <= 0.0:
         return depth[0] + slope[0] * (position - first)
@@ -69,13 +71,26 @@ def _rail_depth(first, spacing, depth, slope, position):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _gap_minimum(outward, downward, shift, first, spacing, depth, slope, gap):
-    """Fill the gap G at every wheel point; index of its minimum."""
+    """Fill the gap G at the wheel points that can matter, infinity elsewhere; index of its minimum.
+
+    Every COARSE-th point is looked at first; stretches whose gap is far above the lowest are left.
+    """
+    count = outward.size
+    lowest = np.inf
+    for i in range(0, count, COARSE):
+        gap[i] = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
+        lowest = min(lowest, gap[i])
     best = 0
-    for i in range(outward.size):
-        room = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
-        gap[i] = room
-        if room < gap[best]:
-            best = i
+    for start in range(0, count, COARSE):
+        stop = min(start + COARSE, count)
+        after = gap[stop] if stop < count else gap[start]
+        if min(gap[start], after) > lowest + MARGIN:
+            gap[start:stop] = np.inf
+            continue
+        for i in range(start, stop):
+            gap[i] = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
+            if gap[i] < gap[best]:
+                best = i
     return best
 
 
@@ -114,10 +129,12 @@ def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, e
     first, spacing = rail_grid
     best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
     total = mean_wheel = mean_depth = mean_offset = square = steepness = 0.0
-    lowest, centre = gap[best], curve[0, best]
+    lowest, centre, inverse = gap[best], curve[0, best], 1.0 / epsilon
     for i in range(gap.size):
-        exponent = (gap[i] - lowest) * curve[3, i] / epsilon
-        if exponent > CUT or curve[2, i] == 0.0:
+        if gap[i] - lowest > MARGIN or curve[2, i] == 0.0:
+            continue
+        exponent = (gap[i] - lowest) * curve[3, i] * inverse
+        if exponent > CUT:
             continue
         weight = curve[2, i] * np.exp(-exponent)
         offset = curve[0, i] - centre
@@ -140,10 +157,13 @@ def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, e
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def fill_table(wheel, radius, rail_grid, rail, shifts, rolls, yaw_tangents_squared, epsilon, table):
+def fill_table(
+    wheel, radius, shear, rail_grid, rail, shifts, rolls, yaw_tangents_squared, epsilon, table
+):
     """Fill `table` of shape (shifts, rolls, yaws, STRIDE) by `contact_column`.
 
-    `wheel` is a (3, n) array: position, depth and slope of the profile.
+    `wheel` is a (3, n) array: position, depth and slope of the profile; the table's shift is the
+    lateral shift plus `shear` (m) times tan(yaw)^2.
     """
     curve = np.empty((4, wheel.shape[1]))
     gap = np.empty(wheel.shape[1])
@@ -157,7 +177,7 @@ def fill_table(wheel, radius, rail_grid, rail, shifts, rolls, yaw_tangents_squar
                     curve,
                     wheel[0],
                     wheel[1],
-                    shifts[i],
+                    shifts[i] - shear * tangent,
                     rail_grid,
                     rail,
                     epsilon,

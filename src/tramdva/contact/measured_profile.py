@@ -144,7 +144,7 @@ def _smooth(arc, points, noise):
     def fit(log_penalty):
         penalty = 10.0**log_penalty * scale**3
         pair = [make_smoothing_spline(arc / scale, p, lam=penalty / scale**3) for p in points.T]
-        off = np.hypot(*(spline(arc / scale) - p for spline, p in zip(pair, points.T)))
+        off = np.hypot(*(pair[i](arc / scale) - points[:, i] for i in range(2)))
         return pair, np.sqrt(np.mean(off**2))
 
     low, high = -8.0, 8.0

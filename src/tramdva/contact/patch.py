@@ -193,7 +193,7 @@ def wheel_contact(
     )
     penetration, angle = found[0], found[1]
     sine, cosine = side * np.sin(angle), np.cos(angle)
-    # Velocity of the wheel's material at the contact; n = (0, -sine, cosine), t = (0, cosine, sine).
+    # Wheel's material at the contact; n = (0, -sine, cosine), t = (0, cosine, sine).
     v_x = velocity[0] + rotation[1] * arm_z - rotation[2] * arm_y
     v_y = velocity[1] + rotation[2] * arm_x - rotation[0] * arm_z
     v_z = velocity[2] + rotation[0] * arm_y - rotation[1] * arm_x
