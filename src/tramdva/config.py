@@ -32,6 +32,15 @@ _VARIANTS = (
     "absorber_variants.c_T",
     "absorber_variants.d_T",
 )
+_BOGIE = (
+    "track",
+    "bogie",
+    "contact_geometry",
+    "creep_force.mu_0",
+    "creep_force.A",
+    "creep_force.B",
+    "numerics.bogie",
+)
 _FIGURE = ("label",)
 _FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
 
@@ -88,6 +97,14 @@ STAGES: dict[str, tuple[str, ...]] = {
         "study.frequency_response",
         "numerics.frequency_response",
     ),
+    "contact_geometry": (
+        "contact_geometry",
+        "bogie.wheel.radius",
+        "numerics.contact_geometry",
+    ),
+    "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
+    "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
+    "curve_entry": (*_BOGIE, "study.curve_entry", "numerics.curve_entry"),
     "fig02_stability_map": _FIGURE_OF_VARIANTS,
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,

@@ -12,6 +12,14 @@ from typing import Annotated, Any, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from tramdva.bogie_parameters import Bogie, ContactGeometry, Track
+from tramdva.bogie_study import (
+    BogieModesNumerics,
+    BogieModesStudy,
+    BogieNumerics,
+    ContactGeometryNumerics,
+    CurveEntryNumerics,
+    CurveEntryStudy,
+)
 from tramdva.quantities import Interval, Real, Section, Whole, quantity, unique
 
 LINE_NAME = r"[a-z0-9][a-z0-9_-]{0,40}"
@@ -179,6 +187,8 @@ class Study(Section):
     critical_hopf_curve: CriticalHopfCurveStudy
     cycle_amplitudes: CycleAmplitudesStudy
     frequency_response: FrequencyResponseStudy
+    bogie_modes: BogieModesStudy
+    curve_entry: CurveEntryStudy
 
 
 def named_uniquely(variants: tuple[AbsorberVariant, ...]) -> tuple[AbsorberVariant, ...]:
@@ -307,6 +317,10 @@ class Numerics(Section):
     cycle_amplitudes: CycleAmplitudesNumerics
     absorber_tuning: AbsorberTuningNumerics
     frequency_response: FrequencyResponseNumerics
+    contact_geometry: ContactGeometryNumerics
+    bogie: BogieNumerics
+    bogie_modes: BogieModesNumerics
+    curve_entry: CurveEntryNumerics
 
 
 LineName = Annotated[

@@ -15,6 +15,8 @@ from tramdva.bogie.vehicle import AXLE_OF_WHEEL, FORCES, LOCAL, SIDE
 from tramdva.contact import geometry, patch, profiles
 
 LOCALS, WHEEL_FORCES = len(LOCAL), len(FORCES)
+# Range of the contact tables: m of lateral shift, rad of roll and yaw.
+SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
 
 
 class WheelPlaces(NamedTuple):
@@ -57,8 +59,14 @@ def wheel_places(bogie, contact_geometry, speed: float) -> WheelPlaces:
     )
 
 
-def zone_tables(contact_geometry, wheel_radius: float) -> tuple:
-    """Contact tables of the zones of the parametric profiles (`bogie_parameters`)."""
+def zone_tables(
+    contact_geometry, wheel_radius: float, shift_step: float = 2.5e-5, yaw_nodes: int = 12
+) -> tuple:
+    """Contact tables of the zones of the parametric profiles (`bogie_parameters`).
+
+    `shift_step` in m and the number of nodes over the yaw angle: a conformal flange root, whose
+    locus is an arc of few mm that shrinks with the yaw angle, needs fine ones.
+    """
     wheel, rail = contact_geometry.wheel, contact_geometry.rail
     return geometry.contact_tables(
         profiles.tram_wheel(
@@ -73,8 +81,43 @@ def zone_tables(contact_geometry, wheel_radius: float) -> tuple:
             field_half_width=rail.field_half_width,
         ),
         wheel_radius,
+        shift_range=(-rail.lateral_position - SHIFT_RANGE, -rail.lateral_position + SHIFT_RANGE),
+        roll_limit=ROLL_RANGE,
+        yaw_limit=YAW_RANGE,
         gap_scale=contact_geometry.gap_scale,
+        shift_step=shift_step,
+        yaw_nodes=yaw_nodes,
     )  # fmt: skip
+
+
+# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw).
+PLACE = patch.RESULTS
+COLUMNS = PLACE + 4
+# A radius deviation of this size (m) is allowed for.
+_DEVIATION = 1e-4
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _still_apart(result, y, z, roll, yaw):
+    """Whether a zone that was apart cannot touch yet.
+
+    The gap is a distance: it changes by no more than the wheel moves. Its slope in the yaw angle,
+    R tan(delta)^2 tan(yaw), stays below 0.3 m/rad, that in the roll angle below the radius.
+    """
+    if result[patch.STATUS] != patch.NO_CONTACT or result[patch.PENETRATION] >= 0.0:
+        return False
+    moved = abs(y - result[PLACE]) + abs(z - result[PLACE + 1])
+    moved += 0.6 * abs(roll - result[PLACE + 2]) + 0.3 * abs(yaw - result[PLACE + 3])
+    return moved + _DEVIATION + result[patch.PENETRATION] < 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _remember(result, y, z, roll, yaw):
+    """Note where a zone was evaluated."""
+    result[PLACE] = y
+    result[PLACE + 1] = z
+    result[PLACE + 2] = roll
+    result[PLACE + 3] = yaw
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -91,7 +134,7 @@ def wheel_forces(
     local : (10,) local variables of the wheel
     deviation, deviation_rate : m and m/s, radius deviation at the contact, crest positive
     scratch : (rows, work) of `patch.contact_workspace`
-    results : (zones, patch.RESULTS), receives the results of each zone
+    results : (zones, COLUMNS), receives the results of each zone
     force : (6,), receives the forces
 
     Notes
@@ -116,10 +159,17 @@ def wheel_forces(
     rolling = speed - turning * places.lateral_position[wheel]
     force[:] = 0.0
     for zone in range(len(contacts.tables)):
+        result = results[zone]
+        if _still_apart(result, y, z, roll, yaw):
+            continue
         f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
             contacts.tables[zone], contacts.law, side, position, (roll, yaw), velocity, rotation,
-            rolling, deviation, deviation_rate, scratch[0], scratch[1], results[zone],
+            rolling, deviation, deviation_rate, scratch[0], scratch[1], result,
         )  # fmt: skip
+        if result[patch.PENETRATION] < 0.0:
+            # A zone that does not touch may lie outside its table.
+            result[patch.STATUS] = patch.NO_CONTACT
+        _remember(result, y, z, roll, yaw)
         force[0] += f_x
         force[1] += f_y
         force[2] += f_z
@@ -130,7 +180,7 @@ def wheel_forces(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def all_wheel_forces(contacts, curvatures, local, deviation, deviation_rate, scratch, results, force):
-    """Forces (24,) of all wheels from the local variables (40,); results (4, zones, RESULTS).
+    """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
 
     `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4,).
     """
@@ -170,13 +220,13 @@ def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
     """Scratch arrays and array of results for `all_wheel_forces`."""
     rows, work, _ = patch.contact_workspace(contacts.law)
-    return (rows, work), np.zeros((4, len(contacts.tables), patch.RESULTS))
+    return (rows, work), np.zeros((4, len(contacts.tables), COLUMNS))
 
 
 def contact_forces(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Forces (24,) and results (4, zones, RESULTS) at local variables (40,) with round wheels."""
+    """Forces (24,) and results (4, zones, COLUMNS) at local variables (40,) with round wheels."""
     scratch, results = workspace(contacts)
     force, zero = np.empty(4 * WHEEL_FORCES), np.zeros(4)
     all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
