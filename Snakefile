@@ -1,12 +1,11 @@
 """The paper's table of contents: one rule per stage, one per figure, in the paper's order."""
 
-import os
 from functools import partial
 from pathlib import Path
 
 from tramdva import job
 from tramdva.config import load_or_exit, stage
-from tramdva.provenance import code_hash, numba_cache_folder
+from tramdva.provenance import code_hash, use_numba_cache
 
 ROOT = Path(workflow.current_basedir)
 SCRIPTS = ROOT / "workflow/scripts"
@@ -22,7 +21,7 @@ configuration = load_or_exit(
 )
 LINES = configuration.run.lines
 values = partial(stage, configuration)
-os.environ["NUMBA_CACHE_DIR"] = str(numba_cache_folder())
+use_numba_cache()
 
 
 report: "workflow/report/workflow.rst"
@@ -72,6 +71,7 @@ rule all:
         expand("paper_figures/{line}/{figure}.pdf", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/table2_absorber_designs.csv", line=LINES),
+        expand("paper_figures/{line}/table2_absorber_designs.html", line=LINES),
     message:
         "all numbers, figures and tables"
 
@@ -355,6 +355,7 @@ rule fig06_cycle_amplitudes:
 rule fig07_frequency_response:
     input:
         frequency_response=rules.frequency_response.output[0],
+        absorber_tuning=rules.absorber_tuning.output[0],
     output:
         pdf="paper_figures/{line}/fig07_frequency_response.pdf",
         png=report(
@@ -381,8 +382,9 @@ rule table2_absorber_designs:
     input:
         absorber_tuning=rules.absorber_tuning.output[0],
     output:
-        report(
-            "paper_figures/{line}/table2_absorber_designs.csv",
+        table="paper_figures/{line}/table2_absorber_designs.csv",
+        page=report(
+            "paper_figures/{line}/table2_absorber_designs.html",
             category="Forced vibrations",
             caption="workflow/report/table2.rst",
             labels={"line": "{line}", "shows": "Table 2"},

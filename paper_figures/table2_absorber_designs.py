@@ -1,37 +1,112 @@
 """Table 2: designs of the absorber side by side."""
 
 import csv
+import html
+from pathlib import Path
 
-from tramdva import job, results
+import numpy as np
 
+from tramdva import figures, job, results
+from tramdva.figures import KILO, MEGA
+
+MM_PER_KN = 1e-6  # m/N
+
+# Heading, unit and name of each column.
 COLUMNS = {
-    "m_T": "m_T (kg)",
-    "c_T": "c_T (N/m)",
-    "d_T": "d_T (N s/m)",
-    "peak_receptance": "peak receptance (m/N)",
-    "reduction": "reduction (-)",
-    "peak_frequency": "peak frequency (Hz)",
-    "growth_rate": "growth rate (1/s)",
-    "critical_c_T": "critical c_T (N/m)",
-    "stroke_per_force": "stroke per force (m/N)",
+    "mass m_T (kg)": (1.0, "m_T"),
+    "stiffness c_T (MN/m)": (MEGA, "c_T"),
+    "damping d_T (kN s/m)": (KILO, "d_T"),
+    "peak frequency (Hz)": (1.0, "peak_frequency"),
+    "peak receptance (mm/kN)": (MM_PER_KN, "peak_receptance"),
+    "reduction of the peak (times)": (1.0, "reduction"),
+    "growth rate at the operating B (1/s)": (1.0, "growth_rate"),
+    "critical c_T at this d_T (MN/m)": (MEGA, "critical_c_T"),
+    "stroke per force (mm/kN)": (MM_PER_KN, "stroke_per_force"),
 }
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>{title}</title>
+<style>
+body {{ font: 14px sans-serif; background: white; color: black; }}
+table {{ border-collapse: collapse; border-top: 2px solid; border-bottom: 2px solid; }}
+th, td {{ padding: 0.3em 0.8em; text-align: right; }}
+th:first-child, td:first-child {{ text-align: left; }}
+thead th {{ border-bottom: 1px solid; vertical-align: bottom; font-weight: bold; }}
+</style>
+</head>
+<body>
+<table>
+<thead>
+{head}
+</thead>
+<tbody>
+{body}
+</tbody>
+</table>
+</body>
+</html>
+"""
 
 
-def main(*, output: str, code: str, absorber_tuning: str) -> None:
-    """Write the designs as a table, a row each."""
-    designs = results.read(absorber_tuning)
-    with results.atomically(output) as part, part.open("w", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["design", *COLUMNS.values(), "status"])
-        for row, design in enumerate(designs["design"]):
-            numbers = [f"{designs[name][row]:.6g}" for name in COLUMNS]
-            table.writerow([design, *numbers, designs["status"][row]])
+def main(*, table: str, page: str, code: str, absorber_tuning: str) -> None:
+    """Write the table for spreadsheets and as a page.
+
+    Parameters
+    ----------
+    table, page : str
+        The table as CSV and as HTML.
+    code : str
+        Hash of the code.
+    absorber_tuning : str
+        Result file.
+    """
+    rows = [["design", *COLUMNS, "status"], *designs(results.read(absorber_tuning))]
+    with results.atomically(table) as part, part.open("w", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+    with results.atomically(page) as part:
+        write_page(part, rows)
+
+
+def designs(tuning: dict[str, np.ndarray]) -> list[list[str]]:
+    """Rows of the table as texts: no absorber, then each design."""
+    reference = {
+        name.removeprefix("reference_"): value[None]
+        for name, value in tuning.items()
+        if name.startswith("reference_")
+    }
+    rows = [[figures.design_name("none"), *numbers(reference, 0), ""]]
+    for row, design in enumerate(tuning["design"]):
+        status = str(tuning["status"][row]).replace("_", " ")
+        rows.append([figures.design_name(str(design)), *numbers(tuning, row), status])
+    return rows
+
+
+def numbers(tuning: dict[str, np.ndarray], row: int) -> list[str]:
+    """Cells of one design to four digits, empty where there is no number."""
+    cells = []
+    for unit, name in COLUMNS.values():
+        value = tuning[name][row] / unit if name in tuning else np.nan
+        cells.append(f"{value:#.4g}".rstrip(".") if np.isfinite(value) else "")
+    return cells
+
+
+def write_page(path: Path, rows: list[list[str]]) -> None:
+    """Write the table as a page for the report."""
+    head, *body = (
+        "<tr>" + "".join(f"<{tag}>{html.escape(cell) or '–'}</{tag}>" for cell in row) + "</tr>"
+        for tag, row in [("th", rows[0]), *(("td", row) for row in rows[1:])]
+    )
+    text = PAGE.format(title="Designs of the absorber", head=head, body="\n".join(body))
+    path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
     with job.logging_to(snakemake.log[0]):
         main(
-            output=snakemake.output[0],
+            table=snakemake.output.table,
+            page=snakemake.output.page,
             code=snakemake.params.code,
             absorber_tuning=snakemake.input.absorber_tuning,
         )

@@ -9,9 +9,9 @@ from pathlib import Path
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-from tramdva.provenance import numba_cache_folder
+from tramdva.provenance import use_numba_cache
 
-os.environ["NUMBA_CACHE_DIR"] = str(numba_cache_folder())
+use_numba_cache()
 
 import pytest
 
@@ -70,3 +70,12 @@ def snakemake(frozen_code: Path):
         )
 
     return start
+
+
+@pytest.fixture(scope="session")
+def quick_run(snakemake, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder in which the whole pipeline ran with coarse numerics."""
+    folder = tmp_path_factory.mktemp("quick")
+    ended = snakemake(folder, "--configfile", "config/quick.yaml")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    return folder

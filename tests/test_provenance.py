@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tramdva import provenance
-from tramdva.provenance import code_hash, numba_cache_folder
+from tramdva.provenance import code_hash, use_numba_cache
 
 SOURCES = {
     "__init__.py": '"""Nomenclature."""\n',
@@ -117,8 +117,8 @@ def test_data_count(package: Path, tmp_path: Path) -> None:
     ("text", "problem"),
     [
         ("from . import force\n", "line 1: relative imports are not followed"),
-        ("from tramdva import forse\n", "there is no module tramdva.forse"),
-        ("import tramdva.forse\n", "there is no module tramdva.forse"),
+        ("from tramdva import springs\n", "there is no module tramdva.springs"),
+        ("import tramdva.springs\n", "there is no module tramdva.springs"),
     ],
 )
 def test_imports_that_cannot_be_followed(package: Path, text: str, problem: str) -> None:
@@ -166,9 +166,9 @@ def test_compiled_code_has_a_folder_per_state_of_the_sources(
     package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
-    first = numba_cache_folder(package)
+    first = use_numba_cache(package)
     (package / "contact/kalker.py").write_text("c = 2\n")
-    second = numba_cache_folder(package)
+    second = use_numba_cache(package)
 
     assert first.parent == second.parent == tmp_path / "cache"
     assert first != second
@@ -179,10 +179,10 @@ def test_folder_of_a_parent_process_is_kept(
     package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
-    first = numba_cache_folder(package)
+    first = use_numba_cache(package)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(first))
 
-    assert numba_cache_folder(package) == first
+    assert use_numba_cache(package) == first
 
 
 def test_folder_where_the_home_cannot_be_written(
@@ -193,7 +193,7 @@ def test_folder_where_the_home_cannot_be_written(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
     monkeypatch.chdir(tmp_path)
 
-    assert numba_cache_folder(package).parent == tmp_path / ".snakemake/tramdva"
+    assert use_numba_cache(package).parent == tmp_path / ".snakemake/tramdva"
 
 
 def test_unused_folders_are_removed(
@@ -208,6 +208,6 @@ def test_unused_folders_are_removed(
     for folder in (old, other):
         os.utime(folder, (month_ago, month_ago))
 
-    numba_cache_folder(package)
+    use_numba_cache(package)
 
     assert [folder.exists() for folder in (old, recent, other)] == [False, True, True]

@@ -32,7 +32,7 @@ UPSTREAM = {
     "fig04_hopf_curves": ["hopf_curves", "critical_hopf_curve"],
     "fig05_critical_hopf_curve": ["critical_hopf_curve"],
     "fig06_cycle_amplitudes": ["critical_hopf_curve", "cycle_amplitudes"],
-    "fig07_frequency_response": ["frequency_response"],
+    "fig07_frequency_response": ["frequency_response", "absorber_tuning"],
     "table2_absorber_designs": ["absorber_tuning"],
 }
 FIGURES = [rule for rule in UPSTREAM if rule.startswith("fig")]
@@ -47,7 +47,7 @@ USERS = {
     "creep_force": list(STAGES),
     "wheelset": list(STAGES),
     "wheelset.c_A": ["stability_map", "cycle_amplitudes", "absorber_tuning", "frequency_response"],
-    "absorber": ["absorber_tuning"],
+    "absorber": ["absorber_tuning", "fig02_stability_map", "fig05_critical_hopf_curve"],
     "absorber.m_T": WITH_VARIANTS + WITH_CRITICAL_CURVE,
     "forced_excitation": ["absorber_tuning", "frequency_response"],
     "absorber_variants": WITH_VARIANTS,
@@ -94,7 +94,7 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
 def files_of(rule: str, line: str) -> list[str]:
     if rule in STAGES:
         return [f"results/{line}/{rule}.nc"]
-    kinds = ["csv"] if rule.startswith("table") else ["pdf", "png"]
+    kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
     return [f"paper_figures/{line}/{rule}.{kind}" for kind in kinds]
 
 
@@ -429,6 +429,17 @@ def test_rules_declare_the_same_directives(root: Path) -> None:
         directives = re.findall(r"^    (\w+):", body, re.MULTILINE)
         if name != "all":
             assert directives in (order, order[1:]), name
+
+
+def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
+    text = (root / "Snakefile").read_text()
+    for rule, body in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
+        if rule != "all":
+            declared = re.findall(r"^        (\w+)=rules\.(\w+)\.", body, re.MULTILINE)
+            assert [name for name, _ in declared] == [of for _, of in declared], rule
+            script = script_of(root, rule).read_text(encoding="utf-8")
+            used = set(re.findall(r"snakemake\.input\.(\w+)", script))
+            assert used == set(UPSTREAM.get(rule, [])) == {name for name, _ in declared}, rule
 
 
 def test_parameters_of_jobs_are_plain_json(root: Path) -> None:

@@ -42,6 +42,7 @@ _BOGIE = (
     "numerics.bogie",
 )
 _FIGURE = ("label",)
+_FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
 _FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
 
 # What each stage and each figure uses. `study.<x>` and `numerics.<x>` come without the <x>.
@@ -105,10 +106,10 @@ STAGES: dict[str, tuple[str, ...]] = {
     "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
     "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
     "curve_entry": (*_BOGIE, "study.curve_entry", "numerics.curve_entry"),
-    "fig02_stability_map": _FIGURE_OF_VARIANTS,
+    "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
-    "fig05_critical_hopf_curve": _FIGURE,
+    "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
     "fig06_cycle_amplitudes": _FIGURE,
     "fig07_frequency_response": _FIGURE,
 }

@@ -46,13 +46,21 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     return digest.hexdigest()[:20]
 
 
-def numba_cache_folder(package: Path = PACKAGE) -> Path:
-    """Return the folder for compiled code that belongs to exactly these sources.
+def use_numba_cache(package: Path = PACKAGE) -> Path:
+    """Let Numba keep compiled code in a folder that belongs to exactly these sources.
 
     Numba does not notice that a function in another file changed; a folder named by the hash of
     all sources does. It is below NUMBA_CACHE_DIR or else in the cache of the user or, where that
-    cannot be written, in the working directory. Folders that were unused for long are removed.
+    cannot be written, in the working directory. NUMBA_CACHE_DIR is set for this process and those
+    that it starts; call this before Numba is imported. Folders that were unused for long are
+    removed.
     """
+    folder = _numba_cache_folder(package)
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    return folder
+
+
+def _numba_cache_folder(package: Path) -> Path:
     digest = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
         digest.update(str(path.relative_to(package)).encode() + path.read_bytes())

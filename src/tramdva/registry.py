@@ -20,7 +20,7 @@ STATUS = (
 SPECIAL_CYCLES = ("hopf", "fold", "period_doubling", "torus")
 BRANCH_ENDS = ("hopf_point", "window", "max_points", "no_convergence", "sharp_turn")
 SPECIAL_HOPF_POINTS = ("critical", "generalised_hopf", "zero_frequency")
-INSTABILITIES = ("stable", "oscillatory", "monotone")
+INSTABILITIES = ("stable", "oscillatory", "monotone", "no_equilibrium")
 _AXLE = "stiffness of axle and primary suspension"
 
 

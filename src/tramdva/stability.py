@@ -13,7 +13,7 @@ import numpy as np
 
 from tramdva.wheelset import WheelsetParameters, linearised, wheelset_parameters
 
-STABLE, OSCILLATORY, MONOTONE = 0, 1, 2
+STABLE, OSCILLATORY, MONOTONE, NO_EQUILIBRIUM = 0, 1, 2, 3
 
 # Coefficients are formed with the time in ms: in s they span thirty decades.
 _TIME = 1e-3
@@ -32,10 +32,13 @@ def leading_eigenvalues(values: WheelsetParameters, with_absorber: bool) -> np.n
     Returns
     -------
     complex array
-        In 1/s.
+        In 1/s; NaN where there is no equilibrium.
     """
     shape = np.broadcast_shapes(*(np.shape(value) for value in values))
-    eigenvalues = np.linalg.eigvals(linearised(values, with_absorber).matrices)
+    matrices = linearised(values, with_absorber).matrices
+    missing = ~np.isfinite(matrices).all(axis=(1, 2))
+    eigenvalues = np.linalg.eigvals(np.where(missing[:, None, None], 0.0, matrices))
+    eigenvalues[missing] = np.nan
     leading = np.argmax(eigenvalues.real, axis=1)
     found = np.take_along_axis(eigenvalues, leading[:, None], axis=1)[:, 0]
     return (found.real + 1j * np.abs(found.imag)).reshape(shape)
@@ -120,16 +123,17 @@ def hurwitz_determinants(coefficients: np.ndarray) -> np.ndarray:
 
 
 def classify(leading: np.ndarray) -> np.ndarray:
-    """`STABLE`, `OSCILLATORY` or `MONOTONE` from leading eigenvalues (1/s)."""
+    """`STABLE`, `OSCILLATORY`, `MONOTONE` or `NO_EQUILIBRIUM` from leading eigenvalues (1/s)."""
     kind = np.where(leading.imag > 0.0, OSCILLATORY, MONOTONE)
-    return np.where(leading.real < 0.0, STABLE, kind).astype(np.int8)
+    kind = np.where(leading.real < 0.0, STABLE, kind)
+    return np.where(np.isnan(leading), NO_EQUILIBRIUM, kind).astype(np.int8)
 
 
 def _map(values: WheelsetParameters, with_absorber: bool) -> dict[str, np.ndarray]:
     leading = leading_eigenvalues(values, with_absorber)
     coefficients = characteristic_polynomial(values, with_absorber)
     determinants = hurwitz_determinants(coefficients)
-    agrees = np.all(determinants > 0.0, axis=-1) == (leading.real < 0.0)
+    agrees = np.isnan(leading) | (np.all(determinants > 0.0, axis=-1) == (leading.real < 0.0))
     return {
         "growth_rate": leading.real,
         "frequency": np.where(leading.imag > 0.0, leading.imag / (2.0 * np.pi), 0.0),

@@ -114,11 +114,12 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     worn_area : cross-section of removed material in m^2 (depth integrated across the patch;
         times 2 pi R the volume of one revolution).
     """
-    strip_depth[:] = 0.0
+    for j in range(strip_depth.size):
+        strip_depth[j] = 0.0
     worn_area = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
             if slip == 0.0 or field.length_x[k, j] == 0.0:
                 continue
             pressure = field.pressure[k, j]
@@ -135,10 +136,11 @@ def region_areas(field, rolling_speed, chart, areas):
 
     `areas` is a (5,) array: the four REGIONS (cells that slide), then cells without slip.
     """
-    areas[:] = 0.0
+    for region in range(areas.size):
+        areas[region] = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.hypot(field.slip_x[k, j], field.slip_y[k, j])
+            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
             region = 4
             if slip > 0.0:
                 region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)

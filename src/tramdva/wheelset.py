@@ -139,19 +139,25 @@ def _lateral_equilibrium(p, with_absorber):
             break
         step = -residual / slope
         y_R = y_R + step
+    if not (abs(step) <= 1e-12 * p.L.real and V_0.real > 0.0):
+        V_0 = V_0 * np.nan  # no steady rolling within the curve
     return y_A, y_T, y_R, V_0, abs(step)
 
 
 @jit
 def _rhs(states, parameters):
-    """Accelerations of eqs (1)-(5) at every state."""
-    p = _named(parameters)
+    """Accelerations of eqs (1)-(5) at every state; parameters (1, q) for all or (m, q) for each."""
+    p = _named(parameters[0])
     dofs = states.shape[1] // 2
     with_absorber = dofs == 3
     V_0 = _lateral_equilibrium(p, with_absorber)[3]
     centripetal = p.Omega * p.Omega * p.r_C * np.cos(p.gamma)
     out = np.empty_like(states)
     for i in range(states.shape[0]):
+        if i > 0 and parameters.shape[0] > 1:
+            p = _named(parameters[i])
+            V_0 = _lateral_equilibrium(p, with_absorber)[3]
+            centripetal = p.Omega * p.Omega * p.r_C * np.cos(p.gamma)
         y_A, y_R = states[i, 0], states[i, dofs - 1]
         v_A, v_R = states[i, dofs], states[i, 2 * dofs - 1]
         w = v_R - p.gamma * V_0
@@ -174,7 +180,7 @@ def _rhs(states, parameters):
 @jit
 def _jacobian(states, parameters):
     """Derivatives of `_rhs` in the state, shape (m, n, n)."""
-    p = _named(parameters)
+    p = _named(parameters[0])
     m, n = states.shape
     dofs = n // 2
     with_absorber = dofs == 3
@@ -182,6 +188,9 @@ def _jacobian(states, parameters):
     R = dofs - 1
     out = np.empty((m, n, n), dtype=states.dtype)
     for i in range(m):
+        if i > 0 and parameters.shape[0] > 1:
+            p = _named(parameters[i])
+            V_0 = _lateral_equilibrium(p, with_absorber)[3]
         matrix = out[i]
         for j in range(n):
             for k in range(n):
@@ -225,16 +234,18 @@ def _linearised(parameters, with_absorber):
         V_0[i] = _lateral_equilibrium(p, with_absorber)[3]
         w = -p.gamma * V_0[i]
         slopes[i] = creep_force(w, V_0[i], p.F_N, p.mu_0, p.A, p.B, p.C_22, p.k_A, p.k_S)[1]
-        matrix = _jacobian(steady, parameters[i])[0]
+        matrix = _jacobian(steady, parameters[i : i + 1])[0]
         for j in range(n):
             for k in range(n):
                 matrices[i, j, k] = matrix[j, k]
     return matrices, V_0, slopes
 
 
-def _common_type(states: np.ndarray, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    dtype = np.result_type(states, parameters, float)
-    return np.ascontiguousarray(states, dtype), np.ascontiguousarray(parameters, dtype)
+def _prepared(states: np.ndarray, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """States and rows of parameters of one type, as the kernels take them."""
+    dtype = complex if np.iscomplexobj(states) or np.iscomplexobj(parameters) else float
+    rows = np.ascontiguousarray(np.atleast_2d(parameters.T), dtype)
+    return np.ascontiguousarray(states, dtype), rows
 
 
 def accelerations(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
@@ -244,8 +255,8 @@ def accelerations(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     ----------
     states : (m, 6) or (m, 4) array
         States in m and m/s, with or without absorber.
-    parameters : (20,) array
-        `WheelsetParameters` as a vector; real or complex.
+    parameters : (20,) or (20, m) array
+        `WheelsetParameters` as a vector, for all states or for each; real or complex.
 
     Returns
     -------
@@ -253,12 +264,12 @@ def accelerations(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
         Velocities in m/s and accelerations in m/s^2. ``V_0`` is that of the equilibrium at these
         parameters.
     """
-    return _rhs(*_common_type(states, parameters))
+    return _rhs(*_prepared(states, parameters))
 
 
 def jacobian(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     """Derivative of `accelerations` in the state, (m, n, n), SI units; arguments as there."""
-    return _jacobian(*_common_type(states, parameters))
+    return _jacobian(*_prepared(states, parameters))
 
 
 class Equilibrium(NamedTuple):
@@ -290,8 +301,8 @@ def equilibrium(values: WheelsetParameters, with_absorber: bool) -> Equilibrium:
         If Newton's method does not converge.
     """
     y_A, y_T, y_R, V_0, step = _lateral_equilibrium(WheelsetParameters(*values), with_absorber)
-    if not step <= 1e-12 * abs(values.L):
-        raise ArithmeticError(f"no lateral equilibrium: Newton's last step is {step:.1e} m")
+    if not np.isfinite(V_0):
+        raise ArithmeticError(f"no steady rolling in the curve: Newton's last step is {step:.1e} m")
     return Equilibrium(y_A, y_T if with_absorber else np.nan, y_R, V_0)
 
 

@@ -99,10 +99,28 @@ def read_wheelset_table(name: str, sides: dict) -> pd.DataFrame:
 def manchester() -> pd.DataFrame:
     """Case A-2.2 of the Manchester benchmark, mm and N as printed."""
     table = read_wheelset_table("manchester_a22.txt", {"left wheel": "L", "right wheel": "R"})
-    table.columns = (
-        "side case pid y yaw z y_track z_track angle y_rail z_rail y_wheel z_wheel "
-        "nu_x nu_y phi FN FX FS pmax"
-    ).split()
+    table.columns = [
+        "side",
+        "case",
+        "pid",
+        "y",
+        "yaw",
+        "z",
+        "y_track",
+        "z_track",
+        "angle",
+        "y_rail",
+        "z_rail",
+        "y_wheel",
+        "z_wheel",
+        "nu_x",
+        "nu_y",
+        "phi",
+        "FN",
+        "FX",
+        "FS",
+        "pmax",
+    ]
     numbers = table.columns[3:]
     table[numbers] = table[numbers].astype(float)
     return table
@@ -112,9 +130,23 @@ def manchester() -> pd.DataFrame:
 def tram_cases() -> pd.DataFrame:
     """S1002 on UIC60 under tram conditions, mm, degrees and N as printed."""
     table = read_wheelset_table("tram_s1002_uic60.txt", {}).drop(columns=0)
-    table.columns = (
-        "side y patch z y_track z_track angle y_wheel nu_x nu_y phi FN FX FS pmax".split()
-    )
+    table.columns = [
+        "side",
+        "y",
+        "patch",
+        "z",
+        "y_track",
+        "z_track",
+        "angle",
+        "y_wheel",
+        "nu_x",
+        "nu_y",
+        "phi",
+        "FN",
+        "FX",
+        "FS",
+        "pmax",
+    ]
     numbers = table.columns[1:]
     table[numbers] = table[numbers].astype(float)
     return table

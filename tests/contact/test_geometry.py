@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from tramdva.contact import geometry, hertz, locus, profiles
 
-ROWS = np.zeros((4, locus.STRIDE))
+ROWS = np.zeros((geometry.WINDOW, locus.STRIDE))
 
 
 def at(table, shift, height, roll=0.0, yaw=0.0):

@@ -295,7 +295,9 @@ def test_tram_cases_positions_and_forces(tram_cases, tram_s1002, forces):
         creepages = (case.nu_x, case.nu_y, case.phi * 1e3)
         force = forces(a, b, case.FN, 0.35, creepages)
         force_errors[key] = np.hypot(force[0] - case.FX, force[1] - case.FS) / (0.35 * case.FN)
-    assert max(force_errors.values()) < 0.02
-    tread = [key for key in wheel if key[0] == "L" or key[1] in (0, 4, 5)]
-    assert max(abs(wheel[key]) for key in tread) < 0.5
-    assert max(abs(angles[key]) for key in tread) < 0.01
+    assert max(force_errors.values()) < 0.012
+    # At 0 and 2 mm the patch lies on two arcs; Hertz puts its centre up to 0.7 mm off.
+    conformal = {("R", 0.0), ("R", 2.0), ("L", 0.0)}
+    assert max(abs(offset) for key, offset in wheel.items() if key not in conformal) < 0.15
+    assert max(abs(wheel[key]) for key in conformal) < 0.7
+    assert max(abs(angle) for angle in angles.values()) < 0.0075

@@ -28,10 +28,10 @@ def test_friction_power_equals_force_times_slip(field, contact_cases):
 
 
 @pytest.mark.parametrize("creepages", [(1e-3, 0, 0), (0, 2e-3, 0), (0, 0.04, 0)])
-def test_slip_factor_tends_to_one_under_pure_creepage(field, creepages):
-    deviation = [abs(field(4e-3, 2e-3, LOAD, FRICTION, creepages, n, n)[4] - 1.0) for n in (10, 40)]
-    assert deviation[0] < 0.02
-    assert deviation[1] < 0.01
+def test_slip_factor_is_one_under_pure_creepage(field, creepages):
+    """The discrete march has the energy identity of the continuous one."""
+    for n in (5, 40):
+        assert_allclose(field(4e-3, 2e-3, LOAD, FRICTION, creepages, n, n)[4], 1.0, rtol=1e-12)
 
 
 def test_slip_factor_under_spin_stays_between_the_flexibilities(field, contact_cases):

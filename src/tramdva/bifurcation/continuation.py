@@ -9,7 +9,7 @@ H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problem
 """
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -143,7 +143,11 @@ def trace(
         new_tests = curve.test_functions(new)
         for kind, value in new_tests.items():
             if value * tests.get(kind, np.nan) < 0.0:
-                branch.special.append(_locate(curve, point, step, kind, tests[kind], value))
+                ends = (tests[kind], value)
+                located = _locate(
+                    curve, point, step, kind, lambda p, k=kind: curve.test_functions(p)[k], ends
+                )
+                branch.special.append(located)
         branch.points.append(curve.record(new))
         branch.tests.append(new_tests)
         if reason is not None:
@@ -166,23 +170,28 @@ def _next_step(step: float, iterations: int, cosine: float, control: StepControl
 
 
 def _locate(
-    curve: Curve, point: Any, step: float, kind: str, at_start: float, at_end: float
+    curve: Curve,
+    point: Any,
+    step: float,
+    kind: str,
+    test: Callable[[Any], float],
+    ends: tuple[float, float],
 ) -> SpecialPoint:
-    """Zero of a test function between a point and the one a step ahead."""
-    found = {0.0: (point, at_start)}
+    """Zero of a test function between a point and the one a step ahead, its values there given."""
+    found = {0.0: (point, ends[0])}
 
-    def test(length: float) -> float:
+    def along(length: float) -> float:
         if length == 0.0:
-            return at_start
+            return ends[0]
         candidate, _ = curve.correct(curve.predict(point, length))
         if candidate is None:  # keep the bracket: treat like its nearer end
-            return at_start if length < 0.5 * step else at_end
-        value = curve.test_functions(candidate)[kind]
+            return ends[0] if length < 0.5 * step else ends[1]
+        value = test(candidate)
         found[length] = (candidate, value)
         return value
 
     precision = 1e-10 * step
-    brentq(test, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
+    brentq(along, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
     best = min(found.values(), key=lambda pair: abs(pair[1]))
     return SpecialPoint(kind, curve.record(best[0]), precision)
 
@@ -277,3 +286,19 @@ class AlgebraicCurve:
     def record(self, point: CurvePoint) -> CurvePoint:
         """Nothing to leave out."""
         return point
+
+
+def sign_changes(
+    curve: AlgebraicCurve,
+    points: Sequence[CurvePoint],
+    kind: str,
+    test: Callable[[CurvePoint], float],
+    values: np.ndarray,
+) -> list[SpecialPoint]:
+    """Zeros of a function along the points of a finished walk, its values there given."""
+    found = []
+    for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
+        step = float((points[i + 1].z - points[i].z) @ points[i].tangent)
+        ends = (float(values[i]), float(values[i + 1]))
+        found.append(_locate(curve, points[i], step, kind, test, ends))
+    return found

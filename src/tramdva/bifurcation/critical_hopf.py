@@ -63,11 +63,10 @@ def total_jacobian_derivative(
     index: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """J' = J_p + (dJ/dx) x' and x' = -J^-1 f_p along the branch of equilibria, (n, n) and (n,)."""
-    f_p = system.rhs_parameter_derivative(state[None], parameters, index)[0]
+    f_p = system.rhs_parameter_derivatives(state, parameters, [index])[0]
     moved = np.linalg.solve(J, -f_p)
-    J_p = system.jacobian_parameter_derivative(state[None], parameters, index)[0]
-    J_x = system.jacobian_directional_derivative(state[None], parameters, moved)[0]
-    return J_p + J_x, moved
+    J_x, J_p = system.jacobian_derivatives(state, parameters, moved[None], [index])
+    return J_p[0] + J_x[0], moved
 
 
 @dataclass(frozen=True)
@@ -107,6 +106,8 @@ class _CriticalSystem:
         self._parameters = start.parameters
         self._state = start.state
         self.n = system.dimension
+        # dRe(sigma)/dp_1 relative to the frequency and to p_1, of the size of the other equations
+        self._scale = max(1.0, abs(start.parameters[self.free[0]])) / start.omega
 
     def pack(self, point: HopfPoint) -> np.ndarray:
         u = point.vector / point.vector[self.k]
@@ -142,11 +143,11 @@ class _CriticalSystem:
         return np.concatenate([J @ u_R + omega * u_I, J @ u_I - omega * u_R, scaling, tangency])
 
     def _tangency(self, free: np.ndarray, omega: float) -> float:
-        """Cosine of the direction in which the eigenvalue near i omega moves with p_1, eq. (15)."""
+        """Scaled derivative of the growth rate in p_1, of the eigenvalue near i omega, eq. (15)."""
         p = self._parameters.copy()
         p[self.free] = free
         slope = eigenvalue_derivative(self.system, self.equilibrium(p), p, 1j * omega, self.free[0])
-        return slope.real / abs(slope)
+        return self._scale * slope.real
 
     def derivative(self, z: np.ndarray) -> np.ndarray:
         """Derivative of the residual in z.

@@ -6,12 +6,18 @@ Equations (9) and (10) of the paper; Y. A. Kuznetsov, Elements of Applied Bifurc
 sections 5.4 and 10.2.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tramdva.bifurcation.continuation import AlgebraicCurve, CurvePoint, StepControl, trace
+from tramdva.bifurcation.continuation import (
+    AlgebraicCurve,
+    CurvePoint,
+    StepControl,
+    sign_changes,
+    trace,
+)
 from tramdva.bifurcation.system import DynamicalSystem
 
 
@@ -30,7 +36,7 @@ class HopfPoint:
     parameters : (q,) array
         Parameter vector.
     residual : float
-        Largest component of the extended system (10).
+        Largest component of the extended system (10) before Newton's last step.
     converged : bool
         Whether Newton's method reached its tolerance.
     """
@@ -127,23 +133,20 @@ class _ExtendedSystem:
         n, k = self.n, self.k
         x, u_R, u_I, omega = z[:n], z[n : 2 * n], z[2 * n : 3 * n], z[3 * n]
         p = self.parameters(z)
-        directions = self.system.jacobian_directional_derivative(
-            np.vstack([x, x]), p, np.vstack([u_R, u_I])
-        )
         J = self.system.jacobian(x[None], p)[0]
+        J_x, J_p = self.system.jacobian_derivatives(x, p, np.stack([u_R, u_I]), self.free)
+        f_p = self.system.rhs_parameter_derivatives(x, p, self.free)
         out = np.zeros((3 * n + 2, z.size))
         out[:n, :n] = out[n : 2 * n, n : 2 * n] = out[2 * n : 3 * n, 2 * n : 3 * n] = J
-        out[n : 2 * n, :n], out[2 * n : 3 * n, :n] = directions
+        out[n : 2 * n, :n], out[2 * n : 3 * n, :n] = J_x
         rows = np.arange(n)
         out[n + rows, 2 * n + rows] = omega
         out[2 * n + rows, n + rows] = -omega
         out[n : 2 * n, 3 * n] = u_I
         out[2 * n : 3 * n, 3 * n] = -u_R
-        for column, index in enumerate(self.free, start=3 * n + 1):
-            J_p = self.system.jacobian_parameter_derivative(x[None], p, index)[0]
-            out[:n, column] = self.system.rhs_parameter_derivative(x[None], p, index)[0]
-            out[n : 2 * n, column] = J_p @ u_R
-            out[2 * n : 3 * n, column] = J_p @ u_I
+        out[:n, 3 * n + 1 :] = f_p.T
+        out[n : 2 * n, 3 * n + 1 :] = (J_p @ u_R).T
+        out[2 * n : 3 * n, 3 * n + 1 :] = (J_p @ u_I).T
         out[3 * n, n + k] = out[3 * n + 1, 2 * n + k] = 1.0
         return out
 
@@ -188,11 +191,13 @@ def solve_hopf_point(
     for _ in range(max_iterations + 1):
         G = extended.residual(z)
         size = float(np.abs(G).max())
-        if size <= tolerance or not np.isfinite(size):
+        if not np.isfinite(size):
             break
         try:
-            z = z - np.linalg.solve(extended.derivative(z), G)
+            z = z - np.linalg.solve(extended.derivative(z), G)  # also once more at the tolerance
         except np.linalg.LinAlgError:
+            break
+        if size <= tolerance:
             break
     point = extended.unpack(z, size)
     return replace(point, converged=bool(size <= tolerance and point.omega > 0.0))
@@ -201,26 +206,32 @@ def solve_hopf_point(
 def first_lyapunov_coefficient(
     system: DynamicalSystem, point: HopfPoint, component: int, radius: float = 1e-2
 ) -> float:
-    """First Lyapunov coefficient of a Hopf point: negative is supercritical.
+    """First Lyapunov coefficient of one Hopf point, see `first_lyapunov_coefficients`."""
+    return float(first_lyapunov_coefficients(system, [point], component, radius)[0])
+
+
+def first_lyapunov_coefficients(
+    system: DynamicalSystem, points: Sequence[HopfPoint], component: int, radius: float = 1e-2
+) -> np.ndarray:
+    """First Lyapunov coefficients of Hopf points: negative is supercritical.
 
     Parameters
     ----------
     system : DynamicalSystem
         Well-scaled system.
-    point : HopfPoint
-        Converged point.
+    points : sequence of HopfPoint
+        Converged points.
     component : int
         The critical eigenvector is scaled to 1 in this component (the coefficient's unit is one
         over that component squared).
     radius : float
         Radius of the circle, in multiples of the eigenvector with largest component 1, on which
-        Cauchy's
-        formula takes the directional derivatives of the Jacobian; must stay within the region
-        where f is analytic.
+        Cauchy's formula takes the directional derivatives of the Jacobian; must stay within the
+        region where f is analytic.
 
     Returns
     -------
-    float
+    (len(points),) array
         l_1 = Re(c_1) / omega of the normal form z' = i omega z + c_1 z |z|^2.
 
     Notes
@@ -230,49 +241,67 @@ def first_lyapunov_coefficient(
         l_1 = Re[ <p, C(q, q, q*)> - 2 <p, B(q, J^-1 B(q, q*))>
                   + <p, B(q*, (2 i omega - J)^-1 B(q, q))> ] / (2 omega)
     """
-    J = system.jacobian(point.state[None], point.parameters)[0]
-    q = point.vector / np.abs(point.vector).max()
+    if not points:
+        return np.empty(0)
+    x = np.array([point.state for point in points])
+    parameters = np.array([point.parameters for point in points]).T
+    omega = np.array([point.omega for point in points])[:, None, None]
+    q = np.array([point.vector / np.abs(point.vector).max() for point in points])
+    J = system.jacobian(x, parameters)
     a, b = q.real, q.imag
-    (D_a, D_b), (E_a, E_b) = _jacobian_directions(system, point, np.vstack([a, b]), radius)
-    B_qq = D_a @ a - D_b @ b + 2j * (D_a @ b)
-    B_qqc = D_a @ a + D_b @ b
-    C_qqqc = E_a @ a + E_b @ a + 1j * (E_a @ b + E_b @ b)
-    h_20 = np.linalg.solve(2j * point.omega * np.eye(len(J)) - J, B_qq)
-    h_11 = np.linalg.solve(J, B_qqc)
-    p = _adjoint_vector(J, q, point.omega)
-    total = C_qqqc - 2.0 * (D_a + 1j * D_b) @ h_11 + (D_a - 1j * D_b) @ h_20
-    l_1 = (np.conj(p) @ total).real / (2.0 * point.omega)
-    return float(l_1 / abs(q[component]) ** 2)
+    D_a, E_a = _jacobian_directions(system, x, parameters, a, radius)
+    D_b, E_b = _jacobian_directions(system, x, parameters, b, radius)
+    B_qq = _apply(D_a, a) - _apply(D_b, b) + 2j * _apply(D_a, b)
+    B_qqc = _apply(D_a, a) + _apply(D_b, b)
+    C_qqqc = _apply(E_a + E_b, a) + 1j * _apply(E_a + E_b, b)
+    identity = np.eye(system.dimension)
+    h_20 = np.linalg.solve(2j * omega * identity - J, B_qq[..., None])[..., 0]
+    h_11 = np.linalg.solve(J, B_qqc[..., None])[..., 0]
+    p = _adjoint_vectors(J, q, omega)
+    total = C_qqqc - 2.0 * _apply(D_a + 1j * D_b, h_11) + _apply(D_a - 1j * D_b, h_20)
+    l_1 = np.sum(np.conj(p) * total, axis=1).real / (2.0 * omega[:, 0, 0])
+    return l_1 / np.abs(q[:, component]) ** 2
 
 
-def _adjoint_vector(J: np.ndarray, q: np.ndarray, omega: float) -> np.ndarray:
-    """Vector p with J^T p = -i omega p and <p, q> = conj(p) . q = 1, by a bordered solve."""
-    n = len(J)
-    bordered = np.zeros((n + 1, n + 1), complex)
-    bordered[:n, :n] = J.T + 1j * omega * np.eye(n)
-    bordered[:n, n] = q
-    bordered[n, :n] = np.conj(q)
-    p = np.linalg.solve(bordered, np.eye(n + 1)[n])[:n]
-    return p / np.conj(np.conj(p) @ q)
+def _apply(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    return np.einsum("ajk,ak->aj", matrices, vectors)
+
+
+def _adjoint_vectors(J: np.ndarray, q: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """Vectors p with J^T p = -i omega p and <p, q> = conj(p) . q = 1, by bordered solves."""
+    count, n = q.shape
+    bordered = np.zeros((count, n + 1, n + 1), complex)
+    bordered[:, :n, :n] = np.swapaxes(J, 1, 2) + 1j * omega * np.eye(n)
+    bordered[:, :n, n] = q
+    bordered[:, n, :n] = np.conj(q)
+    right = np.zeros((count, n + 1, 1))
+    right[:, n] = 1.0
+    p = np.linalg.solve(bordered, right)[:, :n, 0]
+    return p / np.conj(np.sum(np.conj(p) * q, axis=1, keepdims=True))
 
 
 def _jacobian_directions(
-    system: DynamicalSystem, point: HopfPoint, directions: np.ndarray, radius: float
+    system: DynamicalSystem,
+    x: np.ndarray,
+    parameters: np.ndarray,
+    directions: np.ndarray,
+    radius: float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """First and second derivatives of J along each direction, by Cauchy's formula on a circle.
+    """First and second derivatives of J at states (k, n) along directions (k, n), Cauchy's formula.
 
-    The trapezoidal rule with K points has the error of order radius^K and needs no small
-    difference; the lower half of the circle is the complex conjugate of the upper one.
+    The trapezoidal rule with K points on the circle has the error of order radius^K and needs no
+    small difference; the lower half of the circle is the complex conjugate of the upper one.
     """
     K = 12
     angles = np.pi * np.arange(K // 2 + 1) / (K // 2)
     weights = np.where((angles == 0.0) | (angles == np.pi), 1.0, 2.0) / K
     offsets = radius * np.exp(1j * angles)
-    states = point.state + offsets[None, :, None] * directions[:, None, :]
-    n = system.dimension
-    J = system.jacobian(states.reshape(-1, n), point.parameters).reshape(len(directions), -1, n, n)
-    first = np.einsum("a,dajk->djk", weights * np.exp(-1j * angles) / radius, J)
-    second = np.einsum("a,dajk->djk", 2.0 * weights * np.exp(-2j * angles) / radius**2, J)
+    states = x[:, None, :] + offsets[:, None] * directions[:, None, :]
+    count, n = x.shape
+    repeated = np.repeat(parameters, len(angles), axis=1)
+    J = system.jacobian(states.reshape(-1, n), repeated).reshape(count, -1, n, n)
+    first = np.einsum("a,kaij->kij", weights * np.exp(-1j * angles) / radius, J)
+    second = np.einsum("a,kaij->kij", 2.0 * weights * np.exp(-2j * angles) / radius**2, J)
     return first.real, second.real
 
 
@@ -338,12 +367,11 @@ def hopf_curve(
     extended = _ExtendedSystem(system, start.parameters, indices, k)
 
     def tests(point: CurvePoint) -> dict[str, float]:
+        return {"critical": point.tangent[-1], "zero_frequency": point.z[3 * extended.n]}
+
+    def l_1(point: CurvePoint) -> float:
         hopf = extended.unpack(point.z, point.residual)
-        return {
-            "critical": point.tangent[-1],
-            "generalised_hopf": first_lyapunov_coefficient(system, hopf, component),
-            "zero_frequency": hopf.omega,
-        }
+        return first_lyapunov_coefficient(system, hopf, component)
 
     curve = AlgebraicCurve(extended.residual, extended.derivative, tests, tolerance)
     first = curve.start(extended.pack(start), direction * np.eye(3 * extended.n + 3)[-1])
@@ -361,9 +389,14 @@ def hopf_curve(
         return "closed" if back < step and travelled[0] > 4.0 * step else None
 
     branch = trace(curve, first, control, leaves, discard=frozenset({"window"}))
+    points = [extended.unpack(point.z, point.residual) for point in branch.points]
+    coefficients = first_lyapunov_coefficients(system, points, component)
+    special = branch.special + sign_changes(
+        curve, branch.points, "generalised_hopf", l_1, coefficients
+    )
     return HopfCurve(
-        points=[extended.unpack(point.z, point.residual) for point in branch.points],
-        first_lyapunov_coefficients=np.array([t["generalised_hopf"] for t in branch.tests]),
-        special=[(s.kind, extended.unpack(s.point.z, s.point.residual)) for s in branch.special],
+        points=points,
+        first_lyapunov_coefficients=coefficients,
+        special=[(s.kind, extended.unpack(s.point.z, s.point.residual)) for s in special],
         ended=branch.ended,
     )

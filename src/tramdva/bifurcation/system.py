@@ -1,6 +1,6 @@
 """Smooth dynamical systems x' = f(x, p) and their derivatives."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,22 +43,48 @@ class DynamicalSystem:
         """df/dp_index at every state, (m, n)."""
         return self.rhs(states, _step(parameters, index)).imag / _COMPLEX_STEP
 
-    def jacobian_parameter_derivative(
-        self, states: np.ndarray, parameters: np.ndarray, index: int
-    ) -> np.ndarray:
-        """dJ/dp_index at every state, (m, n, n)."""
-        return self.jacobian(states, _step(parameters, index)).imag / _COMPLEX_STEP
+    def jacobian_derivatives(
+        self,
+        state: np.ndarray,
+        parameters: np.ndarray,
+        directions: np.ndarray,
+        indices: Sequence[int],
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Derivatives of J at one state along directions and in parameters.
 
-    def jacobian_directional_derivative(
-        self, states: np.ndarray, parameters: np.ndarray, direction: np.ndarray
-    ) -> np.ndarray:
-        """d/ds J(x + s direction) at s = 0, (m, n, n); direction (n,) or (m, n), real.
+        Parameters
+        ----------
+        state : (n,) array
+        parameters : (q,) array
+        directions : (d, n) array
+            Real directions v.
+        indices : sequence of int
+            Positions of parameters.
 
-        Since second derivatives commute, column k is also d/dx_k (J direction).
+        Returns
+        -------
+        tuple of arrays
+            d/ds J(x + s v) at s = 0, (d, n, n); since second derivatives commute, column k is also
+            d/dx_k (J v). And dJ/dp, (len(indices), n, n).
         """
-        return (
-            self.jacobian(states + 1j * _COMPLEX_STEP * direction, parameters).imag / _COMPLEX_STEP
-        )
+        d, steps = len(directions), len(directions) + len(indices)
+        states = np.array(np.broadcast_to(state, (steps, state.size)), complex)
+        states[:d].imag += _COMPLEX_STEP * directions
+        stepped = np.array(np.broadcast_to(parameters[:, None], (parameters.size, steps)), complex)
+        for column, index in enumerate(indices, start=d):
+            stepped[index, column] += 1j * _COMPLEX_STEP
+        derivatives = self.jacobian(states, stepped).imag / _COMPLEX_STEP
+        return derivatives[:d], derivatives[d:]
+
+    def rhs_parameter_derivatives(
+        self, state: np.ndarray, parameters: np.ndarray, indices: Sequence[int]
+    ) -> np.ndarray:
+        """df/dp at one state for several parameters, (len(indices), n)."""
+        count = len(indices)
+        stepped = np.array(np.broadcast_to(parameters[:, None], (parameters.size, count)), complex)
+        stepped[list(indices), np.arange(count)] += 1j * _COMPLEX_STEP
+        states = np.array(np.broadcast_to(state, (count, state.size)))
+        return self.rhs(states, stepped).imag / _COMPLEX_STEP
 
 
 def _step(parameters: np.ndarray, index: int) -> np.ndarray:
@@ -103,10 +129,13 @@ def rescaled(system: DynamicalSystem, scaling: Scaling) -> DynamicalSystem:
     rate = scaling.time / scaling.state
     matrix = rate[:, None] * scaling.state
 
+    def physical(parameters: np.ndarray) -> np.ndarray:
+        return (parameters.T * scaling.parameters).T
+
     def rhs(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
-        return rate * system.rhs(scaling.to_states(states), parameters * scaling.parameters)
+        return rate * system.rhs(scaling.to_states(states), physical(parameters))
 
     def jacobian(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
-        return matrix * system.jacobian(scaling.to_states(states), parameters * scaling.parameters)
+        return matrix * system.jacobian(scaling.to_states(states), physical(parameters))
 
     return DynamicalSystem(rhs, jacobian, system.dimension, system.parameter_names)

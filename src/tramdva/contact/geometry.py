@@ -25,8 +25,11 @@ WHEEL_STRIDE = 4
 SHEAR_ANGLE = np.radians(60.0)
 SPLIT_BARRIER = 2.0
 SPLIT_DISTANCE = 4e-3
+RETREAT = 60.0  # 1/m, bend of a zone's continuation beyond its split
 SPLIT_TOLERANCE = 0.06e-3  # covers one step of shift at a jump from tread to flank
 OUTSIDE_TABLE = 1
+WINDOW = 6
+FAR = 0.5e-3  # m
 
 
 class ContactTable(NamedTuple):
@@ -96,13 +99,14 @@ def _two_point_barriers(curve, wheel_position, rail, shift):
 
 
 def _zone(wheel: Profile, inner: float | None, outer: float | None):
-    """Wheel profile between two splits, continued beyond them by its tangents."""
+    """Wheel profile between two splits, continued beyond them by parabolas that turn away."""
     y, z, slope = wheel.position, wheel.depth.copy(), wheel.slope.copy()
-    for split, other in ((inner, lambda s: y < s), (outer, lambda s: y > s)):
+    for split, beyond in ((inner, y < (inner or 0.0)), (outer, y > (outer or 0.0))):
         if split is not None:
-            tangent = float(wheel.slope_at(split))
-            z[other(split)] = wheel.depth_at(split) + tangent * (y[other(split)] - split)
-            slope[other(split)] = tangent
+            tangent, distance = float(wheel.slope_at(split)), y[beyond] - split
+            retreat = 0.5 * RETREAT * distance**2
+            z[beyond] = wheel.depth_at(split) + tangent * distance - retreat
+            slope[beyond] = tangent - RETREAT * distance
     return y, z, slope
 
 
@@ -149,7 +153,7 @@ def contact_tables(
     )
     ends = (None, *splits, None)
     zones = [_zone(wheel, inner, outer) for outer, inner in itertools.pairwise(ends)]
-    flank = 0.5 * wheel_radius * np.tan(SHEAR_ANGLE)
+    flank = float(0.5 * wheel_radius * np.tan(SHEAR_ANGLE))
     shears = [0.0] * (len(zones) - 1) + [flank]
     return tuple(
         _table(zone, rail, wheel_radius, shear, axes, gap_scale)
@@ -226,14 +230,14 @@ def _cell(table, axis, value):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
-def _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows):
-    """Contract roll and yaw for the four shift coefficients from `start` on.
+def _collapse(coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows):
+    """Contract roll and yaw for as many shift coefficients from `start` on as there are rows.
 
-    The four shifts with all columns are one contiguous stretch of the flat table: with unsigned
+    The shifts with all columns are one contiguous stretch of the flat table: with unsigned
     offsets and the length read from the array the loop compiles to vector instructions.
     """
-    flat, stack = table.coefficients.reshape(-1), rows.reshape(-1)
-    shape = table.coefficients.shape
+    flat, stack = coefficients.reshape(-1), rows.reshape(-1)
+    shape = coefficients.shape
     length = np.uint64(stack.size)
     stack[:] = 0.0
     for k in range(4):
@@ -246,15 +250,26 @@ def _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _height(rows, t, step):
-    """Height of the locus and its first and second derivative in the shift."""
-    a, b, c, d = rows[0, 0], rows[1, 0], rows[2, 0], rows[3, 0]
+def _height(rows, i, t, step):
+    """Height of the locus and its first and second derivative in the shift, from row i on."""
+    a, b, c, d = rows[i, 0], rows[i + 1, 0], rows[i + 2, 0], rows[i + 3, 0]
     s = 1.0 - t
     w = _weights(t)
     value = w[0] * a + w[1] * b + w[2] * c + w[3] * d
     first = 0.5 * (s * s * (b - a) + 2.0 * (t * s + 0.5) * (c - b) + t * t * (d - c))
     second = s * (a - 2.0 * b + c) + t * (b - 2.0 * c + d)
     return value, first / step, second / (step * step)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _column(rows, i, w, column):
+    """Value of a column from row i on."""
+    return (
+        w[0] * rows[i, column]
+        + w[1] * rows[i + 1, column]
+        + w[2] * rows[i + 2, column]
+        + w[3] * rows[i + 3, column]
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -268,9 +283,15 @@ def touch_height(table, shift, roll, yaw, rows):
     yaw_cell, yaw_fraction, _ = _cell(table, 2, tangent * tangent)
     start, t, _ = _cell(table, 0, shift + table.shear * tangent * tangent)
     _collapse(
-        table, start, roll_cell, _weights(roll_fraction), yaw_cell, _weights(yaw_fraction), rows
+        table.coefficients,
+        start,
+        roll_cell,
+        _weights(roll_fraction),
+        yaw_cell,
+        _weights(yaw_fraction),
+        rows,
     )
-    return _height(rows, t, table.step[0])[0]
+    return _height(rows, 0, t, table.step[0])[0]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -282,7 +303,7 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     table : ContactTable
     shift, height : m, wheel's profile origin relative to the rail's, outwards and downwards
     roll, yaw : rad, outer side down and heading outwards positive
-    rows : (4, STRIDE) scratch array
+    rows : (WINDOW, STRIDE) scratch array
 
     Returns
     -------
@@ -295,37 +316,42 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     Notes
     -----
     The foot of the perpendicular from the position to the locus is found by three Newton steps
-    that start at the shift itself; penetration is the signed distance.
+    that start at the shift itself; penetration is the signed distance. Lifted by more than FAR,
+    where there is no force, the distance is taken along the tangent at the shift.
     """
     roll_cell, roll_fraction, roll_out = _cell(table, 1, roll)
     tangent = np.tan(yaw)
     yaw_cell, yaw_fraction, yaw_out = _cell(table, 2, tangent * tangent)
     roll_weights, yaw_weights = _weights(roll_fraction), _weights(yaw_fraction)
     shift += table.shear * tangent * tangent
-    start, t, shift_out = _cell(table, 0, shift)
-    _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
+    cell, t, shift_out = _cell(table, 0, shift)
+    room = rows.shape[0] - 4  # rows beyond the four that are needed: the foot may move so far
+    start = cell - room // 2
+    _collapse(table.coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
     foot, step = shift, table.step[0]
-    value, slope, bend = _height(rows, t, step)
-    for _ in range(3):
+    value, slope, bend = _height(rows, cell - start, t, step)
+    steps = 3 if height > value - FAR else 0
+    for _ in range(steps):
         residual = foot - shift + (value - height) * slope
         stiffness = 1.0 + slope * slope + (value - height) * bend
         foot -= residual / max(stiffness, 0.5)
         cell, t, shift_out = _cell(table, 0, foot)
-        if cell != start:
-            start = cell
-            _collapse(table, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows)
-        value, slope, bend = _height(rows, t, step)
+        if cell < start or cell > start + room:
+            start = cell - room // 2
+            _collapse(
+                table.coefficients, start, roll_cell, roll_weights, yaw_cell, yaw_weights, rows
+            )
+        value, slope, bend = _height(rows, cell - start, t, step)
     cosine = 1.0 / np.sqrt(1.0 + slope * slope)
     penetration = (height - value - slope * (shift - foot)) * cosine
-    w = _weights(t)
-    status = OUTSIDE_TABLE if (roll_out or yaw_out or shift_out) else 0
+    i, w = cell - start, _weights(t)
     return (
         penetration,
         -np.arctan(slope),
-        w[0] * rows[0, 1] + w[1] * rows[1, 1] + w[2] * rows[2, 1] + w[3] * rows[3, 1],
-        w[0] * rows[0, 2] + w[1] * rows[1, 2] + w[2] * rows[2, 2] + w[3] * rows[3, 2],
-        w[0] * rows[0, 3] + w[1] * rows[1, 3] + w[2] * rows[2, 3] + w[3] * rows[3, 3],
-        w[0] * rows[0, 4] + w[1] * rows[1, 4] + w[2] * rows[2, 4] + w[3] * rows[3, 4],
-        np.exp(w[0] * rows[0, 5] + w[1] * rows[1, 5] + w[2] * rows[2, 5] + w[3] * rows[3, 5]),
-        status,
+        _column(rows, i, w, 1),
+        _column(rows, i, w, 2),
+        _column(rows, i, w, 3),
+        _column(rows, i, w, 4),
+        np.exp(_column(rows, i, w, 5)),
+        OUTSIDE_TABLE if (roll_out or yaw_out or shift_out) else 0,
     )

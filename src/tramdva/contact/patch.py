@@ -91,7 +91,7 @@ def contact_law(
 
 def contact_workspace(law: ContactLaw) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Scratch arrays for `wheel_contact`, one set per thread."""
-    return np.zeros((4, locus.STRIDE)), fastsim.workspace(law.grid), np.zeros(RESULTS)
+    return np.zeros((geometry.WINDOW, locus.STRIDE)), fastsim.workspace(law.grid), np.zeros(RESULTS)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -121,7 +121,7 @@ def tangential_forces(
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def contact_point(table, side, position, angles, radius_deviation, rows):
     """Contact in vehicle axes, before any force.
 

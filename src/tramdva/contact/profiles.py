@@ -232,7 +232,8 @@ def grooved_rail(
     Parameters
     ----------
     crown_radius, corner_radius : m
-    corner_start : m, where the corner arc begins, from the crown's top
+    corner_start : m, where the corner arc begins, from the crown's top; at crown_radius times the
+        wheel's conicity contact goes from the tread into a wider flange root without a jump
     groove_wall_angle : rad, steepest angle of the corner arc
     field_half_width : m, extent of the crown to the field side
 

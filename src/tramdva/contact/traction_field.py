@@ -66,7 +66,7 @@ def _march_strip(j, a, b, scale, creepages, flexibility, grid, field):
         trial_x = qx - length * rate_x
         trial_y = qy - length * (rate_y + rate_spin * grid.middle[k] * half)
         capacity = grid.bound_along[k] * limit
-        trial = np.hypot(trial_x, trial_y)
+        trial = np.sqrt(trial_x * trial_x + trial_y * trial_y)
         factor = capacity / trial if trial > capacity else 1.0
         new_x, new_y = trial_x * factor, trial_y * factor
         field.traction_x[k, j] = 0.5 * (qx + new_x)
@@ -108,6 +108,27 @@ def _cell_work(field, creepages):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _clear(grid, field):
+    _fill_geometry(0.0, 0.0, 0.0, grid, field)
+    for k in range(field.area.shape[0]):
+        for j in range(field.area.shape[1]):
+            field.slip_x[k, j] = 0.0
+            field.slip_y[k, j] = 0.0
+            field.traction_x[k, j] = 0.0
+            field.traction_y[k, j] = 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _scale(slip_factor, traction_factor, field):
+    for k in range(field.area.shape[0]):
+        for j in range(field.area.shape[1]):
+            field.slip_x[k, j] *= slip_factor
+            field.slip_y[k, j] *= slip_factor
+            field.traction_x[k, j] *= traction_factor
+            field.traction_y[k, j] *= traction_factor
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def traction_field(
     semi_axis_longitudinal,
     semi_axis_lateral,
@@ -133,8 +154,7 @@ def traction_field(
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if normal_force <= 0.0 or friction_coefficient <= 0.0:
-        for array in field:
-            array[:] = 0.0
+        _clear(grid, field)
         return 0.0, 0.0, 0.0, 0.0
     _fill_geometry(a, b, 1.5 * normal_force / (np.pi * a * b), grid, field)
     creepages = (longitudinal_creepage, lateral_creepage, spin_creepage)
@@ -151,8 +171,5 @@ def traction_field(
         return force_x, force_y, moment, 0.0
     slip_factor = cell_work / dissipated
     work = -(force_x * creepages[0] + force_y * creepages[1] + moment * creepages[2])
-    field.slip_x[:] *= slip_factor
-    field.slip_y[:] *= slip_factor
-    field.traction_x[:] *= work / cell_work
-    field.traction_y[:] *= work / cell_work
+    _scale(slip_factor, work / cell_work, field)
     return force_x, force_y, moment, slip_factor

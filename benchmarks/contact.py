@@ -1,0 +1,150 @@
+"""Time of FASTSIM per cell and of one contact per call, beside plain compiled C.
+
+Run with OMP_NUM_THREADS=1; times are processor times of this process, the best of several repeats.
+The C reference is compiled by gcc if there is one and timed in the same run.
+"""
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from numba import njit
+from scipy.optimize import brentq
+
+from tramdva.contact import fastsim, geometry, kalker, patch, profiles, traction_field
+
+REPEATS, CALLS = 9, 20_000
+A, B, LOAD, FRICTION = 4e-3, 4e-3, 35e3, 0.35
+TABLE = kalker.kalker_table(0.28)
+FLEXIBILITY = kalker.flexibilities(TABLE, A, B, 82e9)
+
+
+def best(run, calls=CALLS):
+    """Shortest time per call in s."""
+    run(10)
+    times = []
+    for _ in range(REPEATS):
+        start = time.process_time()
+        run(calls)
+        times.append((time.process_time() - start) / calls)
+    return min(times)
+
+
+def compiled_c(cells, strips):
+    """Time per call of the C reference in s; None without gcc."""
+    if shutil.which("gcc") is None:
+        return None
+    source = Path(__file__).with_name("fastsim_reference.c")
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / "reference.so"
+        command = ["gcc", "-O3", "-march=native", "-fno-math-errno", "-shared", "-fPIC"]
+        subprocess.run([*command, str(source), "-o", str(library), "-lm"], check=True)
+        repeat = ctypes.CDLL(str(library)).repeat
+        repeat.restype = ctypes.c_double
+        repeat.argtypes = [
+            ctypes.c_int,
+            *[ctypes.c_double] * 3,
+            ctypes.c_void_p,
+            *[ctypes.c_int] * 2,
+        ]
+        numbers = (ctypes.c_double * 3)(*FLEXIBILITY)
+        address = ctypes.cast(numbers, ctypes.c_void_p)
+        return best(lambda n: repeat(n, A, B, FRICTION * LOAD, address, cells, strips))
+
+
+@njit
+def _forces(times, flexibility, grid, work):
+    total = 0.0
+    for i in range(times):
+        total += fastsim.fastsim_forces(
+            A, B, LOAD, FRICTION, 1e-3 + 1e-9 * i, 2e-3, 0.3, flexibility, grid, work
+        )[0]
+    return total
+
+
+@njit
+def _field(times, flexibility, grid, field):
+    total = 0.0
+    for i in range(times):
+        total += traction_field.traction_field(
+            A, B, LOAD, FRICTION, 1e-3 + 1e-9 * i, 2e-3, 0.3, flexibility, grid, field
+        )[0]
+    return total
+
+
+@njit
+def _contacts(times, table, law, height, rows, work, result):
+    total = 0.0
+    for i in range(times):
+        total += patch.wheel_contact(
+            table, law, -1.0, (-0.1e-3, height + 1e-13 * i), (0.0, -0.01), (4.0, 0.0, 0.0),
+            (0.13, 13.3, 0.0), 4.0, 0.0, 0.0, rows, work, result,
+        )[1]  # fmt: skip
+    return total
+
+
+@njit
+def _places(times, table, height, rows):
+    total = 0.0
+    for i in range(times):
+        total += geometry.locate_contact(table, 0.1e-3, height + 1e-13 * i, 0.0, 0.01, rows)[0]
+    return total
+
+
+def grids():
+    """Rows of time per cell."""
+    for cells, strips in ((10, 10), (12, 11), (12, 12), (16, 16), (20, 20), (40, 40)):
+        grid = fastsim.patch_grid(cells, strips)
+        work = fastsim.workspace(grid)
+        ours = best(lambda n, g=grid, w=work: _forces(n, FLEXIBILITY, g, w))
+        reference = compiled_c(cells, strips)
+        count = cells * strips
+        line = f"FASTSIM {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us"
+        line += f"  {ours / count * 1e9:5.1f} ns/cell"
+        if reference:
+            line += f"   C {reference / count * 1e9:5.1f} ns/cell   ratio {ours / reference:4.2f}"
+        print(line)
+
+
+def contacts():
+    """Rows of time per contact."""
+    table = geometry.contact_tables(profiles.tram_wheel(), profiles.grooved_rail(), 0.3)[1]
+    memory = table.coefficients.nbytes / 1e6
+    for cells, strips in ((10, 10), (12, 11), (20, 20)):
+        law = patch.contact_law(0.35, 0.36, 0.7, cells_along=cells, strips=strips)
+        scratch = patch.contact_workspace(law)
+
+        def excess(z, law=law, scratch=scratch):
+            patch.wheel_contact(
+                table, law, -1.0, (-0.1e-3, z), (0.0, -0.01), (4.0, 0.0, 0.0), (0.13, 13.3, 0.0),
+                4.0, 0.0, 0.0, *scratch,
+            )  # fmt: skip
+            return scratch[2][patch.NORMAL_FORCE] - 43e3
+
+        height = brentq(excess, -1e-3, 3e-3)
+        ours = best(lambda n, a=(table, law, height, *scratch): _contacts(n, *a))
+        angle = np.degrees(scratch[2][patch.CONTACT_ANGLE])
+        print(f"contact {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us (43 kN at {angle:.0f} deg)")
+        away = best(lambda n, a=(table, law, height + 1e-3, *scratch): _contacts(n, *a))
+        print(f"        lifted off {away * 1e6:6.2f} us")
+    rows = np.zeros((geometry.WINDOW, 8))
+    print(f"geometry alone   {best(lambda n: _places(n, table, -height, rows)) * 1e6:6.2f} us")
+    print(f"table of one zone {memory:.1f} MB")
+
+
+def cells():
+    """Time of the field of cells that wear needs."""
+    grid = fastsim.patch_grid(40, 40)
+    field = traction_field.empty_field(grid)
+    ours = best(lambda n: _field(n, FLEXIBILITY, grid, field), 500)
+    print(f"field   40 x 40  {ours * 1e6:6.2f} us  {ours / 1600 * 1e9:5.1f} ns/cell")
+
+
+if __name__ == "__main__":
+    grids()
+    contacts()
+    cells()

@@ -1,0 +1,242 @@
+"""The argument logic and the set-up of run.py, without installing anything."""
+
+import ast
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+
+@pytest.fixture
+def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """run.py as it would be in another folder."""
+    spec = importlib.util.spec_from_file_location("run", root / "run.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    for name in ("run.py", "pyproject.toml", "requirements.lock"):
+        (tmp_path / name).write_bytes((root / name).read_bytes())
+    venv = tmp_path / ".venv"
+    for name, path in {
+        "ROOT": tmp_path,
+        "VENV": venv,
+        "BIN": venv / "bin",
+        "STAMP": venv / "tramdva-stamp",
+        "LOCK": tmp_path / "requirements.lock",
+    }.items():
+        monkeypatch.setattr(module, name, path)
+    return module
+
+
+@pytest.mark.parametrize(
+    ("arguments", "program"),
+    [
+        ([], ["snakemake", "-j2"]),
+        (["-n"], ["snakemake", "-j2", "-n"]),
+        (["-j4"], ["snakemake", "-j4"]),
+        (["-j", "4"], ["snakemake", "-j", "4"]),
+        (["-c1", "-n"], ["snakemake", "-c1", "-n"]),
+        (["--cores", "all"], ["snakemake", "--cores", "all"]),
+        (["--jobs=3"], ["snakemake", "--jobs=3"]),
+        (["--configfile", "a.yaml"], ["snakemake", "-j2", "--configfile", "a.yaml"]),
+        (["--config", "lines=[x]"], ["snakemake", "-j2", "--config", "lines=[x]"]),
+        (["test"], ["pytest"]),
+        (["test", "-k", "hopf"], ["pytest", "-k", "hopf"]),
+        (["report"], ["snakemake", "--report", "report.html"]),
+        (["results/paper/test"], ["snakemake", "-j2", "results/paper/test"]),
+    ],
+)
+def test_arguments_go_to_the_right_program(
+    run: ModuleType, arguments: list[str], program: list[str]
+) -> None:
+    assert run.command(arguments) == program
+
+
+def make_python(run: ModuleType) -> None:
+    run.BIN.mkdir(parents=True)
+    (run.BIN / "python").symlink_to(sys.executable)
+
+
+def test_complete_environment_is_recognised(run: ModuleType) -> None:
+    make_python(run)
+    run.STAMP.write_text(run.stamp())
+
+    assert run.is_set_up()
+
+
+@pytest.mark.parametrize("name", ["requirements.lock", "pyproject.toml", "run.py"])
+def test_changed_requirements_set_up_again(run: ModuleType, name: str) -> None:
+    make_python(run)
+    run.STAMP.write_text(run.stamp())
+    with (run.ROOT / name).open("a") as file:
+        file.write("\n# more\n")
+
+    assert not run.is_set_up()
+
+
+def test_half_made_environment_is_recognised(run: ModuleType) -> None:
+    assert not run.is_set_up()
+    make_python(run)
+    assert not run.is_set_up()
+    run.STAMP.write_text(run.stamp())
+    (run.BIN / "python").unlink()
+    assert not run.is_set_up()
+    assert not run.works()
+
+
+def set_up_with(run: ModuleType, monkeypatch: pytest.MonkeyPatch, failing: str) -> list[str]:
+    """Set up with programs that do nothing but fail where their line holds a word."""
+    lines: list[str] = []
+
+    def pretend(program: list[str], **environment: str) -> None:
+        line = " ".join(program).replace(str(run.BIN), "BIN")
+        lines.append(line)
+        if "venv" in program:
+            make_python(run)
+        if failing and failing in line:
+            raise subprocess.CalledProcessError(1, program)
+
+    monkeypatch.setattr(run, "run", pretend)
+    monkeypatch.setattr(run, "index_of_pip", dict)
+    run.set_up()
+    return lines
+
+
+def test_set_up_ends_with_the_stamp(run: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = set_up_with(run, monkeypatch, "")
+
+    assert "-m venv --clear" in lines[0]
+    assert "--require-hashes" in lines[1]
+    assert lines[2].startswith("BIN/uv --quiet pip sync --require-hashes")
+    assert lines[3].endswith("-e .")
+    assert run.is_set_up()
+
+
+def test_pip_steps_in_where_uv_fails(run: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = set_up_with(run, monkeypatch, "BIN/uv")
+
+    assert "--require-hashes" in lines[-2]
+    assert lines[-2].startswith("BIN/python -m pip")
+    assert run.is_set_up()
+
+
+def test_failed_set_up_leaves_no_stamp(run: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    run.VENV.mkdir()
+    run.STAMP.write_text(run.stamp())
+    with pytest.raises(subprocess.CalledProcessError):
+        set_up_with(run, monkeypatch, "pip")
+
+    assert not run.STAMP.exists()
+
+
+def test_interrupted_set_up_leaves_no_stamp(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(program: list[str], **environment: str) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run, "run", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        run.set_up()
+
+    assert not run.is_set_up()
+
+
+def test_missing_module_venv_is_told_in_a_line(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "geteuid", lambda: 1000)
+    monkeypatch.setattr(run.importlib.util, "find_spec", lambda name: None)
+
+    with pytest.raises(run.SetupError) as error:
+        run.make_venv()
+
+    assert str(error.value) == (
+        "Python's module venv is missing; run: "
+        "sudo sh -c 'apt-get update && apt-get install -y python3-venv'"
+    )
+
+
+def test_missing_module_venv_is_installed_as_root(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran = []
+    monkeypatch.setattr(run, "run", lambda program, **environment: ran.append(program))
+    monkeypatch.setattr(os, "geteuid", lambda: 0)
+    monkeypatch.setattr(run.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(run.importlib.util, "find_spec", lambda name: None)
+
+    run.make_venv()
+
+    assert "install -y python3-venv" in ran[0][-1]
+    assert ran[1][1:3] == ["-m", "venv"]
+
+
+def test_wrong_python_is_told_in_a_line(run: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "PYTHON", (3, 99))
+    monkeypatch.setattr(run.shutil, "which", lambda name: None)
+
+    with pytest.raises(run.SetupError, match=r"^tramdva needs Python 3\.99; this is 3\.11"):
+        run.main([])
+
+
+def test_only_one_entry_of_the_lock_is_taken(run: ModuleType) -> None:
+    lock = "a==1 \\\n    --hash=sha256:0\nuv==2 \\\n    --hash=sha256:1 \\\n    --hash=sha256:2\n"
+
+    assert run.locked("uv", lock + "    # via x\nuvx==3 \\\n    --hash=sha256:3\n") == (
+        "uv==2 \\\n    --hash=sha256:1 \\\n    --hash=sha256:2\n"
+    )
+    with pytest.raises(run.SetupError, match="does not hold uv"):
+        run.locked("uv", "a==1\n")
+
+
+def test_lock_holds_uv_and_names_no_place(root: Path, run: ModuleType) -> None:
+    lock = (root / "requirements.lock").read_text()
+
+    assert "--hash=sha256:" in run.locked("uv", lock)
+    for word in ("http", "index-url=", "find-links", "file:", "constraint"):
+        assert word not in lock
+
+
+def test_settings_of_pip_are_read(run: ModuleType) -> None:
+    lines = [
+        ":env:.index-url='a'",
+        "global.index-url='b'",
+        "install.index-url='c'",
+        "global.extra-index-url='d\\ne'",
+        "install.find-links='f'",
+        "freeze.find-links='g'",
+    ]
+
+    assert run.pip_settings(lines) == {
+        "index-url": "a",
+        "extra-index-url": "d e",
+        "find-links": "f",
+    }
+
+
+def test_help_is_shown_without_set_up(root: Path, tmp_path: Path) -> None:
+    (tmp_path / "run.py").write_bytes((root / "run.py").read_bytes())
+    shown = subprocess.run(
+        [sys.executable, tmp_path / "run.py", "--help"], capture_output=True, text=True, check=True
+    )
+
+    assert "python3 run.py test" in shown.stdout
+    assert not (tmp_path / ".venv").exists()
+
+
+def test_standard_library_only(root: Path) -> None:
+    tree = ast.parse((root / "run.py").read_text())
+    names = {
+        alias.name.partition(".")[0]
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    } | {
+        node.module.partition(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
+    }
+
+    assert names <= set(sys.stdlib_module_names)
