@@ -105,7 +105,17 @@ def set_up() -> None:
     except subprocess.CalledProcessError:
         print("tramdva: uv failed; installing with pip instead", flush=True)
         install_with_pip()
+    compile_kernels()
     STAMP.write_text(stamp())
+
+
+def compile_kernels() -> None:
+    """Compile now what the first run would have to; a failure costs time later, nothing else."""
+    program = (
+        "from tramdva.provenance import use_numba_cache; use_numba_cache();"
+        "from tramdva.warm_up import compile_kernels; compile_kernels()"
+    )
+    subprocess.run([BIN / "python", "-c", program], capture_output=True, check=False)
 
 
 def works() -> bool:

@@ -151,6 +151,7 @@ def areas(kinds: set[str]) -> list[Artist]:
         "stable": (figures.STABLE, "stable"),
         "oscillatory": (figures.OSCILLATORY, "oscillation grows"),
         "monotone": (figures.MONOTONE, "diverges ($a_6<0$)"),
+        "no_equilibrium": ("white", "no equilibrium"),
     }
     shown = [look for kind, look in looks.items() if kind in kinds]
     patches = [Patch(facecolor=grey, edgecolor="black", label=words) for grey, words in shown]

@@ -43,6 +43,7 @@ def draw(cfg: dict, hopf: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) 
     draw_equilibrium(diagram, cycles, "none", 1.0, {"color": figures.NO_ABSORBER})
     for row, name in enumerate(marks):
         draw_cycles(diagram, hopf, cycles, name, look(row))
+        draw_special_points(diagram, cycles, name)
         draw_range(ranges, hopf, cycles, name, row)
     c_A = cycles["equilibrium_c_A"] / MEGA
     diagram.set(ylabel=r"position of the rim $y_R^\ast = y_R\,/\,y_{R0}$")
@@ -60,7 +61,7 @@ def draw(cfg: dict, hopf: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) 
     )
     ranges.tick_params(axis="y", length=0)
     if not cycles["c_A"].size:
-        figures.note(diagram, "no Hopf point: the wheelset does not vibrate by itself")
+        figures.note(diagram, no_cycles(hopf, cycles))
     explain(figure, cycles)
     return figure
 
@@ -101,19 +102,14 @@ def draw_cycles(
                 line = "-" if stable[piece][0] else "--"
                 every = {"markevery": (0.06, 0.11), "markersize": 3}
                 axes.plot(c_A[piece], position[piece], linestyle=line, **every, **style)
-            draw_special_points(axes, cycles, name, c_A, position)
 
 
 def branches(cycles: dict[str, np.ndarray], name: str) -> Iterator[tuple[np.ndarray, str]]:
-    """Rows and end of each branch of an absorber; it starts where its Hopf point is nearest."""
-    rows = np.flatnonzero(cycles["absorber"] == name)
-    here = cycles["branch_absorber"] == name
-    starts = [
-        np.argmin(np.abs(cycles["c_A"][rows] - c_A)) for c_A in cycles["branch_c_A"][here][1:]
-    ]
-    for part, ended in zip(np.split(rows, starts), cycles["branch_ended"][here], strict=False):
-        if part.size:
-            yield part, ended
+    """Rows and end of each branch of an absorber."""
+    for number in np.flatnonzero(cycles["branch_absorber"] == name):
+        rows = np.flatnonzero(cycles["cycle_branch"] == number)
+        if rows.size:
+            yield rows, cycles["branch_ended"][number]
 
 
 def closed(values: np.ndarray) -> np.ndarray:
@@ -132,15 +128,16 @@ def converged(hopf: dict[str, np.ndarray], name: str) -> np.ndarray:
     return (hopf["absorber"] == name) & (hopf["status"] == "converged")
 
 
-def draw_special_points(
-    axes: Axes, cycles: dict[str, np.ndarray], name: str, c_A: np.ndarray, position: np.ndarray
-) -> None:
-    """Mark folds and other bifurcations of cycles at the nearest cycle."""
+def draw_special_points(axes: Axes, cycles: dict[str, np.ndarray], name: str) -> None:
+    """Mark folds and other bifurcations of the cycles of an absorber at the nearest cycle."""
+    rows = np.flatnonzero(cycles["absorber"] == name)
     for kind, marker in SPECIAL.items():
         here = (cycles["special_absorber"] == name) & (cycles["special_kind"] == kind)
-        for value in cycles["special_c_A"][here] / MEGA:
-            nearest = position[np.argmin(np.abs(c_A - value))]
-            axes.plot(value, nearest, marker=marker, color="black", markersize=6, zorder=6)
+        for c_A in cycles["special_c_A"][here] if rows.size else ():
+            row = rows[np.argmin(np.abs(cycles["c_A"][rows] - c_A))]
+            for extreme in ("y_R_max", "y_R_min"):
+                position = cycles[extreme][row] / cycles["y_R_equilibrium"][row]
+                axes.plot(c_A / MEGA, position, marker=marker, color="black", zorder=6)
 
 
 def draw_range(
@@ -168,6 +165,15 @@ def without_hopf_point(cycles: dict[str, np.ndarray], name: str) -> str:
     if stable.all():
         return "no Hopf point: stable throughout"
     return "no Hopf point: " + ("stability changes otherwise" if stable.any() else "never stable")
+
+
+def no_cycles(hopf: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) -> str:
+    """Say why there is no branch of limit cycles."""
+    if (hopf["status"] == "converged").any():
+        return "no limit cycle could be computed"
+    if cycles["equilibrium_stable"].all():
+        return "no Hopf point: the wheelset does not vibrate by itself"
+    return "no Hopf point: vibration neither begins nor ends in this range"
 
 
 def scale_in_mm(axes: Axes, cycles: dict[str, np.ndarray]) -> None:

@@ -41,7 +41,7 @@ def draw(curves: dict[str, np.ndarray], critical: dict[str, np.ndarray]) -> Figu
     axes = figure.subplots()
     axes.set(xlabel="axle stiffness $c_A$ (MN/m)", ylabel="absorber stiffness $c_T$ (MN/m)")
     if not curves["c_A"].size:
-        figures.note(axes, "no Hopf point with any of these absorbers")
+        figures.nothing(axes, "no Hopf point with any of these absorbers")
         return figure
     entries = draw_curves(axes, curves)
     window = axes.get_xlim(), (0, 0.96 * curves["c_T"].max() / MEGA)
@@ -73,11 +73,13 @@ def draw_critical_points(
     for rows in figures.critical_pieces(critical):
         look = figures.critical_look(critical, rows) | {"linewidth": 0.8, "zorder": 4}
         axes.plot(critical["c_A"][rows] / MEGA, critical["c_T"][rows] / MEGA, **look)
-        words = look["label"].replace("critical", "critical, other $d_T$")
+        words = {"critical": "critical, other $d_T$"}.get(look["label"], look["label"])
         entries.setdefault(words, figures.key(**look | {"label": words}))
     inside = (critical["d_T"] >= drawn[0]) & (critical["d_T"] <= drawn[1])
     met = np.where(inside & (critical["branch"] == "upper"), critical["c_T"], np.nan)
     look = {"color": "black", "linewidth": 2.2, "label": "critical, at these $d_T$"}
+    if not np.isfinite(met).any():
+        return list(entries.values())
     axes.plot(critical["c_A"] / MEGA, met / MEGA, zorder=4, **look)
     return [figures.key(**look), *entries.values()]
 

@@ -43,7 +43,7 @@ def draw(cfg: dict, critical: dict[str, np.ndarray]) -> Figure:
     axes = figure.subplots()
     axes.set(xlabel="absorber damping $d_T$ (kN s/m)", ylabel="absorber stiffness $c_T$ (MN/m)")
     if not critical["d_T"].size:
-        figures.note(axes, "no critical Hopf point:\nno absorber where Hopf points merge")
+        figures.nothing(axes, "no critical Hopf point:\nno absorber where Hopf points merge")
         return figure
     entries = draw_plane(axes, cfg, critical)
     right, top = critical["d_T"].max() / KILO, critical["c_T"].max() / MEGA

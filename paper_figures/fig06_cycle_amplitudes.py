@@ -12,7 +12,8 @@ from tramdva import figures, job, results
 from tramdva.figures import KILO, MEGA, MILLI
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
-AXLES = {"critical": {"linewidth": 1.3}, "baseline": {"linewidth": 0.8, "dashes": (5, 2)}}
+AXLES = {"critical": {"linewidth": 1.3}, "baseline": {"linewidth": 0.8, "linestyle": (0, (5, 2))}}
+UNSTABLE = {"linestyle": (0, (1, 1))}
 ONSET = {"color": figures.ONSET, "linewidth": 2.0, "marker": "o", "markersize": 4}
 PANELS = {
     "y_R_deviation_max": (MILLI, r"largest distance $|y_R - L|$ (mm)"),
@@ -54,7 +55,7 @@ def draw(critical: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) -> Figu
             entries = draw_lines(axes, cycles, cycles[quantity] / unit)
             show_plain_numbers(axes)
         else:
-            figures.note(axes, no_cycles(critical, cycles))
+            figures.nothing(axes, no_cycles(critical, cycles))
     if entries:
         figures.legend_below(figure, entries, 4)
     return figure
@@ -70,7 +71,10 @@ def draw_lines(axes: Axes, cycles: dict[str, np.ndarray], values: np.ndarray) ->
         entries.append(figures.key(words, color=colour))
         for axle, look in AXLES.items():
             here = (cycles["axle"] == axle) & (cycles["d_T"] == damping) & np.isfinite(values)
-            axes.plot(cycles["c_T"][here] / MEGA, values[here], color=colour, **look)
+            stable = cycles["stable"][here]
+            for piece in figures.pieces(stable):
+                style = {"color": colour} | look | ({} if stable[piece][0] else UNSTABLE)
+                axes.plot(cycles["c_T"][here][piece] / MEGA, values[here][piece], **style)
             if axle == "critical" and here.any():
                 onset.append((cycles["c_T"][here][0] / MEGA, values[here][0]))
     if onset:
@@ -78,7 +82,10 @@ def draw_lines(axes: Axes, cycles: dict[str, np.ndarray], values: np.ndarray) ->
         entries.append(figures.key("critical Hopf points", **ONSET))
     words = {"critical": "at the critical $c_A$", "baseline": "at the line's $c_A$"}
     there = [axle for axle in AXLES if axle in cycles["axle"]]
-    return entries + [figures.key(words[axle], color="black", **AXLES[axle]) for axle in there]
+    entries += [figures.key(words[axle], color="black", **AXLES[axle]) for axle in there]
+    if not cycles["stable"][np.isfinite(values)].all():
+        entries.append(figures.key("unstable cycles", color="black", **UNSTABLE))
+    return entries
 
 
 def show_plain_numbers(axes: Axes) -> None:

@@ -18,6 +18,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--results", help="folder of full results to check, such as results/paper")
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """Folder of the checkout; no test writes into it."""

@@ -129,6 +129,7 @@ def test_table_of_designs_marks_what_is_self_excited():
         "numerics": {"frequency_points": 2000},
     }
     nothing = {name: np.empty(0) for name in ("branch", "d_T", "c_T", "c_A")}
+    nothing["stabilises_all_c_A"] = np.empty(0, bool)
     out = absorber.absorber_tuning(cfg, nothing)
     status = dict(zip(out["design"], out["status"], strict=True))
     assert status["paper"] == "self_excited"

@@ -20,7 +20,7 @@ LAYERS = [
     {"stability"},
     {"self_excitation"},
     {"critical_absorber"},
-    {"sustained_vibration", "absorber"},
+    {"sustained_vibration", "absorber", "warm_up"},
 ]
 # What the pipeline uses around the model, and what each may know.
 AROUND = {

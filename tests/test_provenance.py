@@ -22,7 +22,9 @@ SOURCES = {
     "wear.py": "import tramdva.contact.hertz as hertz\nfrom tramdva import force\n",
     "alone.py": "x = 1\n",
     "contact/__init__.py": '"""Contact."""\n',
-    "contact/hertz.py": "def late():\n    from tramdva.contact.kalker import c\n    return c\n",
+    "contact/hertz.py": (
+        "@njit(cache=True)\ndef late():\n    from tramdva.contact.kalker import c\n    return c\n"
+    ),
     "contact/kalker.py": "c = 1\n",
     "contact/fastsim.py": "c = 1\n",
 }
@@ -173,6 +175,17 @@ def test_compiled_code_has_a_folder_per_state_of_the_sources(
     assert first.parent == second.parent == tmp_path / "cache"
     assert first != second
     assert second.is_dir()
+
+
+def test_sources_without_compiled_functions_leave_the_compiled_code_as_it_is(
+    package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    first = use_numba_cache(package)
+    (package / "alone.py").write_text("x = 2\n")
+    (package / "contact/hertz.py").write_text(SOURCES["contact/hertz.py"] + "# a comment\n")
+
+    assert use_numba_cache(package) == first
 
 
 def test_folder_of_a_parent_process_is_kept(

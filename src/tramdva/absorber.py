@@ -324,8 +324,11 @@ def _design_row(
 
 
 def _critical_c_T(operating: WheelsetParameters, d_T: float, critical: Mapping[str, Any]) -> float:
-    """Critical stiffness (N/m) at a damping, solved from the nearest upper point; or NaN."""
-    upper = critical["branch"] == "upper"
+    """Critical stiffness (N/m) at a damping, solved from the nearest upper point; or NaN.
+
+    Points that leave other axle stiffnesses unstable limit nothing.
+    """
+    upper = (critical["branch"] == "upper") & critical["stabilises_all_c_A"]
     known = critical["d_T"][upper]
     if not known.size or not known.min() <= d_T <= known.max():
         return np.nan
@@ -363,8 +366,13 @@ def frequency_response(
     frequency = _frequencies(cfg["study"]["frequency"], cfg["numerics"]["points"])
     parameters = {name: np.append(np.nan, absorber_tuning[name]) for name in ("m_T", "c_T", "d_T")}
     responses = [response(values, False, frequency)]
+    missing = np.full(frequency.size, np.nan)
     for m_T, c_T, d_T in zip(*(column[1:] for column in parameters.values()), strict=True):
-        responses.append(response(values._replace(m_T=m_T, c_T=c_T, d_T=d_T), True, frequency))
+        design = values._replace(m_T=m_T, c_T=c_T, d_T=d_T)
+        solved = np.isfinite(c_T)
+        responses.append(
+            response(design, True, frequency) if solved else Response(missing, missing)
+        )
     receptance = np.array([r.receptance for r in responses])
     stable = growth_rate(values, False) < 0.0
     if not stable:

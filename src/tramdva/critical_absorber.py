@@ -37,6 +37,8 @@ logger = logging.getLogger(__name__)
 # Growth rates (1/s) below this are rounding at the tangency, not instability.
 _MARGINAL = 1e-6
 _FREE = ("c_A", "c_T", "d_T")
+# Absorber stiffness in kN/mm at which the critical curve is taken to reach zero.
+_VANISHING = 1e-3
 
 
 def hopf_curves(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
@@ -216,9 +218,8 @@ def critical_hopf_curve(
     -------
     dict
         Variables of ``critical_hopf_curve.nc``: one connected curve from the smallest d_T of the
-        upper
-        branch, through the fold, along the lower branch; only points with c_T > 0. Equations (10)
-        and (15)
+        upper branch, through the fold, along the lower branch. Only points with c_T > 0: ``piece``
+        counts the parts between them, each of which ends at c_T = 1 kN/m. Equations (10) and (15)
         are local: ``stabilises_all_c_A`` says whether the growth rate over all c_A is nowhere
         positive.
     """
@@ -231,12 +232,14 @@ def critical_hopf_curve(
         backward, forward = (
             _walk_critical(start, limits, cfg["numerics"], direction) for direction in (-1, 1)
         )
-        points = backward.points[:0:-1] + forward.points
-        falling = np.append(backward.tangents[:0:-1, 2] > 0.0, forward.tangents[:, 2] < 0.0)
-        rows = _critical_rows(baseline, points, falling, cfg)
-        for curve in (backward, forward):
-            special += [_critical_special(baseline, kind, point) for kind, point in curve.special]
-        special = [row for row in special if row["special_c_T"] > 0.0]
+        points = _in_order(backward, -1)[:0:-1] + _in_order(forward, 1)
+        rows = _critical_rows(baseline, points, cfg)
+        special = [
+            _critical_special(baseline, kind, point)
+            for curve in (backward, forward)
+            for kind, _, point in curve.special
+            if kind != "vanishing" and point.parameters[baseline._fields.index("c_T")] > 0.0
+        ]
     return {
         **columns(rows, _CRITICAL_COLUMNS),
         **columns(special, _CRITICAL_SPECIAL_COLUMNS),
@@ -244,6 +247,7 @@ def critical_hopf_curve(
 
 
 _CRITICAL_COLUMNS = {
+    "piece": int,
     "branch": str,
     "d_T": float,
     "c_T": float,
@@ -299,7 +303,11 @@ def _walk_critical(
         return None if low <= free[2] <= high else "window"
 
     control = StepControl(
-        initial=0.3, smallest=1e-4, largest=1.5, max_points=numerics["max_points"]
+        initial=0.2,
+        smallest=1e-4,
+        largest=1.0,
+        max_points=numerics["max_points"],
+        min_cosine=0.98,
     )
     return critical_hopf.critical_hopf_curve(
         dynamical_system(values, True),
@@ -308,22 +316,37 @@ def _walk_critical(
         control,
         stop,
         direction=direction,
+        level=_VANISHING,
         tolerance=numerics["tolerance"],
     )
 
 
+def _in_order(curve: critical_hopf.CriticalCurve, direction: int) -> list[tuple[HopfPoint, bool]]:
+    """Points with those at vanishing c_T in between, and whether each is on the lower branch."""
+    points = []
+    for i, point in enumerate(curve.points):
+        lower = bool(direction * curve.tangents[i, 2] < 0.0)
+        points.append((point, lower))
+        points += [(p, lower) for kind, k, p in curve.special if kind == "vanishing" and k == i]
+    return points
+
+
 def _critical_rows(
-    values: WheelsetParameters, points: list[HopfPoint], falling: np.ndarray, cfg: Mapping[str, Any]
+    values: WheelsetParameters, points: list[tuple[HopfPoint, bool]], cfg: Mapping[str, Any]
 ) -> list[dict[str, Any]]:
     limits = cfg["study"]["c_A"]
     c_A = np.geomspace(limits["min"], limits["max"], cfg["numerics"]["check_points"])
-    rows = []
-    for point, lower in zip(points, falling, strict=True):
+    rows: list[dict[str, Any]] = []
+    piece, inside = 0, True
+    for point, lower in points:
         own = physical_values(values, True, point.parameters)
         if own.c_T <= 0.0:
+            inside = False
             continue
+        piece, inside = piece + (not inside and bool(rows)), True
         rows.append(
             {
+                "piece": piece,
                 "branch": "lower" if lower else "upper",
                 "d_T": own.d_T,
                 "c_T": own.c_T,

@@ -22,7 +22,6 @@ from matplotlib.text import Text
 
 from tramdva.results import atomically
 
-OPTIONS = {"pdf": {}, "png": {"pil_kwargs": {"optimize": True}}}
 SINGLE_COLUMN = 84.0  # mm
 DOUBLE_COLUMN = 174.0  # mm
 MEGA = 1e6
@@ -31,11 +30,11 @@ MILLI = 1e-3
 
 STABLE = "0.68"  # dark grey
 OSCILLATORY = "0.90"  # light grey
-MONOTONE = "white"
+MONOTONE = "0.45"
 NO_ABSORBER = "black"
 ONSET = "#C1121F"  # the red line of the critical Hopf points
 SPREAD = "cividis"  # for ordered values: its lightness is monotone, so it survives in grey
-DASHES = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), ":", (0, (8, 2)), (0, (2, 1)))
+DASHES = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1.5, 0.8)), (0, (8, 2)), (0, (3, 1)))
 MARKERS = "osD^vP"
 
 DESIGNS = {
@@ -89,7 +88,7 @@ def save(figure: Figure, pdf: str | Path, png: str | Path, title: str) -> None:
     metadata = {"pdf": {"Title": title, "CreationDate": None}, "png": {"Title": title}}
     for path, kind in ((pdf, "pdf"), (png, "png")):
         with atomically(path) as part:
-            figure.savefig(part, format=kind, metadata=metadata[kind], **OPTIONS[kind])
+            figure.savefig(part, format=kind, metadata=metadata[kind])
 
 
 def letter(axes: Axes, name: str) -> Text:
@@ -110,6 +109,13 @@ def note(axes: Axes, words: str, place: tuple[float, float] = (0.5, 0.5)) -> Tex
         bbox=box,
         zorder=10,
     )
+
+
+def nothing(axes: Axes, words: str) -> Text:
+    """Say in axes without data why there are none; scales would be invented."""
+    axes.set(xticks=[], yticks=[])
+    axes.minorticks_off()
+    return note(axes, words)
 
 
 def verbatim(label: str) -> str:
@@ -144,8 +150,7 @@ def pieces(mask: np.ndarray) -> Iterator[slice]:
 def critical_pieces(critical: Mapping[str, np.ndarray]) -> Iterator[np.ndarray]:
     """Rows of connected pieces of the critical Hopf curve, each safe below or not at all.
 
-    The curve has no points where c_T would be negative; there it is cut, at a step far longer
-    than those of the continuation.
+    The curve has no points where c_T would be negative; there it is cut.
 
     Parameters
     ----------
@@ -157,12 +162,8 @@ def critical_pieces(critical: Mapping[str, np.ndarray]) -> Iterator[np.ndarray]:
     array of int
         Rows of one piece in their order along the curve.
     """
-    rows = np.arange(critical["d_T"].size)
-    if rows.size == 0:
-        return
-    d_T, c_T = (critical[name] / critical[name].max() for name in ("d_T", "c_T"))
-    gaps = np.flatnonzero(np.hypot(np.diff(d_T), np.diff(c_T)) > 0.3) + 1
-    for part in np.split(rows, gaps):
+    for number in np.unique(critical["piece"]):
+        part = np.flatnonzero(critical["piece"] == number)
         for piece in pieces(critical["stabilises_all_c_A"][part]):
             yield part[piece]
 

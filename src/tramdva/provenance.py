@@ -6,6 +6,7 @@ import ast
 import functools
 import hashlib
 import os
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).parent
 REGISTRY = "tramdva.registry"  # of its table, only the entry of the stage counts
 WITHOUT_EFFECT = frozenset({"tramdva.job"})  # modules that cannot change a result
+COMPILED = re.compile(rb"^ *@.*jit\b", re.MULTILINE)  # decorators of Numba
 UNUSED_AFTER = 30 * 86400  # seconds after which a folder of compiled code is removed
 
 
@@ -50,10 +52,10 @@ def use_numba_cache(package: Path = PACKAGE) -> Path:
     """Let Numba keep compiled code in a folder that belongs to exactly these sources.
 
     Numba does not notice that a function in another file changed; a folder named by the hash of
-    all sources does. It is below NUMBA_CACHE_DIR or else in the cache of the user or, where that
-    cannot be written, in the working directory. NUMBA_CACHE_DIR is set for this process and those
-    that it starts; call this before Numba is imported. Folders that were unused for long are
-    removed.
+    all modules with compiled functions, and of what they import, does. It is below NUMBA_CACHE_DIR
+    or else in the cache of the user or, where that cannot be written, in the working directory.
+    NUMBA_CACHE_DIR is set for this process and those that it starts; call this before Numba is
+    imported. Folders that were unused for long are removed.
     """
     folder = _numba_cache_folder(package)
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
@@ -61,10 +63,7 @@ def use_numba_cache(package: Path = PACKAGE) -> Path:
 
 
 def _numba_cache_folder(package: Path) -> Path:
-    digest = hashlib.sha256()
-    for path in sorted(package.rglob("*.py")):
-        digest.update(str(path.relative_to(package)).encode() + path.read_bytes())
-    name = f"sources-{digest.hexdigest()[:20]}"
+    name = f"sources-{_compiled_code_hash(package)}"
     for root in _cache_roots():
         folder = root if root.name == name else root / name
         try:
@@ -76,6 +75,17 @@ def _numba_cache_folder(package: Path) -> Path:
             _remove_unused(folder)
             return folder
     return folder
+
+
+def _compiled_code_hash(package: Path) -> str:
+    """Hash the modules that compile functions and everything that they import."""
+    files = {path for path in package.rglob("*.py") if COMPILED.search(path.read_bytes())}
+    for path in tuple(files):
+        files |= {_file(name, package) for name in reached_modules(path, package)}
+    digest = hashlib.sha256()
+    for path in sorted(files):
+        digest.update(str(path.relative_to(package)).encode() + _tree_hash(path))
+    return digest.hexdigest()[:20]
 
 
 def _cache_roots() -> Iterator[Path]:

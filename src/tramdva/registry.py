@@ -122,6 +122,7 @@ STAGES: dict[str, Stage] = {
         "Limit cycles over the stiffness of the axle (figure 3)",
         {
             "absorber": text("cycle", "absorber"),
+            "cycle_branch": real("cycle", "1", "position of its branch along the dimension branch"),
             "m_T": real("cycle", "kg", "mass of the absorber"),
             "c_T": real("cycle", "N/m", "stiffness of the absorber"),
             "d_T": real("cycle", "N s/m", "damping of the absorber"),
@@ -174,6 +175,7 @@ STAGES: dict[str, Stage] = {
     "critical_hopf_curve": Stage(
         "Critical Hopf points: where the Hopf points merge (figures 4 to 6)",
         {
+            "piece": real("critical_point", "1", "number of the piece, its points in order"),
             "branch": flag("critical_point", ("upper", "lower"), "branch of the curve"),
             "d_T": real("critical_point", "N s/m", "damping of the absorber"),
             "c_T": real("critical_point", "N/m", "stiffness of the absorber"),

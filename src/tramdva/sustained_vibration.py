@@ -44,8 +44,13 @@ _STIFFNESS_SCALE = 100.0
 
 @dataclass(frozen=True)
 class WheelsetBranch:
-    """Limit cycles of one branch, special points and the reason of its end."""
+    """Limit cycles of one branch, special points and the reason of its end.
 
+    ``start`` is the orbit of zero amplitude at the Hopf point, ``end`` the Hopf point where the
+    amplitude vanishes again.
+    """
+
+    start: LimitCycle
     cycles: list[LimitCycle]
     special: list[tuple[str, float]]
     end: WheelsetHopfPoint | None
@@ -86,7 +91,7 @@ def limit_cycle_branch(
     control = StepControl(
         initial=0.01,
         smallest=1e-5,
-        largest=0.05,
+        largest=0.03,
         max_points=numerics["max_orbits"],
         comfortable_iterations=5,
     )
@@ -99,7 +104,7 @@ def limit_cycle_branch(
         )
     logger.info("%d orbits, ended: %s", len(branch.points), branch.ended)
     special = [(s.kind, s.point.parameters[curve.index] * unit) for s in branch.special]
-    return WheelsetBranch(branch.points, special, end, branch.ended, curve)
+    return WheelsetBranch(first, branch.points, special, end, branch.ended, curve)
 
 
 @dataclass(frozen=True)
@@ -183,7 +188,8 @@ def limit_cycles(cfg: Mapping[str, Any], hopf_points: Mapping[str, Any]) -> dict
             logger.info("%s: limit cycles from c_A = %.6g N/m", name, c_A)
             start = solve_hopf_point(values._replace(c_A=c_A), mounted, "c_A")
             branch = limit_cycle_branch(start, "c_A", (axis[0], axis[-1]), cfg["numerics"])
-            cycles += [_cycle_row(name, values, mounted, cycle) for cycle in branch.cycles]
+            rows = [_cycle_row(name, values, mounted, cycle) for cycle in branch.cycles]
+            cycles += [{**row, "cycle_branch": len(ends)} for row in rows]
             specials += [_special_row(kind, name, value) for kind, value in branch.special]
             ends.append({"branch_absorber": name, "branch_c_A": c_A, "branch_ended": branch.ended})
             reached += [c_A] + ([branch.end.values.c_A] if branch.end else [])
@@ -203,6 +209,7 @@ def limit_cycles(cfg: Mapping[str, Any], hopf_points: Mapping[str, Any]) -> dict
 
 _CYCLE_COLUMNS = {
     "absorber": str,
+    "cycle_branch": int,
     "m_T": float,
     "c_T": float,
     "d_T": float,
@@ -349,7 +356,22 @@ def _amplitude_rows(
     branch = limit_cycle_branch(start, "c_T", (0.0, 1.2 * end), numerics)
     share = np.linspace(0.0, 1.0, cfg["numerics"]["points"] + 1)[1:] ** 3
     values = onset + (end - onset) * share
-    return [_amplitude_row(axle, start, branch, c_T) for c_T in values]
+    return [_onset_row(axle, start), *(_amplitude_row(axle, start, branch, c) for c in values)]
+
+
+def _onset_row(axle: str, start: WheelsetHopfPoint) -> dict[str, Any]:
+    """The Hopf point where a line begins, as a cycle of no amplitude."""
+    return {
+        "axle": axle,
+        "d_T": start.values.d_T,
+        "c_T": start.values.c_T,
+        "c_A": start.values.c_A,
+        "period": 1.0 / start.frequency,
+        "y_R_deviation_max": abs(equilibrium(start.values, True).y_R - start.values.L),
+        "a_R_max": 0.0,
+        "stable": start.first_lyapunov_coefficient < 0.0,
+        "status": "converged",
+    }
 
 
 def _amplitude_row(
@@ -381,11 +403,14 @@ def _amplitude_row(
 def cycle_at(
     branch: WheelsetBranch, values: WheelsetParameters, stiffness: float
 ) -> LimitCycle | None:
-    """Cycle of a branch at a stiffness in N/m, from the nearest orbit; None beyond its end."""
+    """Cycle of a branch at a stiffness in N/m; None beyond its end or without convergence."""
     curve = branch.curve
-    unit = scaling(values, True).parameters[curve.index]
-    along = np.array([cycle.parameters[curve.index] for cycle in branch.cycles])
-    if not along.size:
-        return None
-    nearest = int(np.argmin(np.abs(along - stiffness / unit)))
-    return curve.at_parameter(branch.cycles[nearest], stiffness / unit)
+    orbits = [branch.start, *branch.cycles]
+    target = stiffness / scaling(values, True).parameters[curve.index]
+    distance = np.array([orbit.parameters[curve.index] for orbit in orbits]) - target
+    nearest = 1 + int(np.argmin(np.abs(distance[1:]))) if branch.cycles else 0
+    found = curve.at_parameter(orbits[nearest], target) if nearest else None
+    if found is None:
+        for k in np.flatnonzero(distance[:-1] * distance[1:] <= 0.0):
+            found = found or curve.between(orbits[k], orbits[k + 1], target)
+    return found

@@ -56,7 +56,9 @@ def test_a_point_for_which_stop_says_discard_is_left_out():
         return "window" if point.z[0] > 0.5 else None
 
     kept = trace(curve, start, control, stop)
-    inside = trace(curve, start, control, stop, discard=frozenset({"window"}))
+    inside = trace(
+        curve, start, control, stop, discard=frozenset({"window"}), approach=frozenset({"window"})
+    )
     assert kept.points[-1].z[0] > 0.5 >= inside.points[-1].z[0]
-    assert len(kept.points) == len(inside.points) + 1
+    assert inside.points[-1].z[0] > 0.49  # it came close to the end
     assert kept.ended == inside.ended == "window"

@@ -148,7 +148,7 @@ def test_critical_curve_of_a_family_with_known_tangency():
     p = np.array([point.parameters for point in curve.points])
     assert_allclose(p[:, 0], p[:, 2], atol=1e-9)
     assert_allclose(p[:, 1], -(p[:, 2] ** 2), atol=1e-10)
-    largest = [point.parameters for kind, point in curve.special if kind == "largest"]
+    largest = [point.parameters for kind, _, point in curve.special if kind == "largest"]
     assert_allclose(largest, [[0.0, 0.0, 0.0]], atol=1e-8)
 
 

@@ -18,6 +18,9 @@ from scipy.optimize import brentq
 
 logger = logging.getLogger(__name__)
 
+# A walk that approaches its end stops within this share of the initial step before it.
+_APPROACH = 0.1
+
 
 class Curve(Protocol):
     """A solution curve as `trace` sees it; points are opaque."""
@@ -53,11 +56,14 @@ class SpecialPoint:
         Point on the curve.
     precision : float
         Arclength within which the zero lies.
+    after : int
+        Index of the point of the branch before it.
     """
 
     kind: str
     point: Any
     precision: float
+    after: int
 
 
 @dataclass
@@ -100,6 +106,7 @@ def trace(
     control: StepControl,
     stop: Callable[[Any], str | None] = lambda point: None,
     discard: frozenset[str] = frozenset(),
+    approach: frozenset[str] = frozenset(),
 ) -> Branch:
     """Walk along a solution curve.
 
@@ -115,6 +122,8 @@ def trace(
         Reason to end after a point, or None.
     discard : set of str
         Reasons for which the point itself is not part of the branch.
+    approach : set of str
+        Those of them for which shorter steps first come close to the end.
 
     Returns
     -------
@@ -138,16 +147,20 @@ def trace(
             continue
         reason = stop(new)
         if reason in discard:
+            if reason in approach and step > _APPROACH * control.initial:
+                step *= 0.5
+                continue
             branch.ended = reason
             return branch
         new_tests = curve.test_functions(new)
         for kind, value in new_tests.items():
             if value * tests.get(kind, np.nan) < 0.0:
                 ends = (tests[kind], value)
-                located = _locate(
-                    curve, point, step, kind, lambda p, k=kind: curve.test_functions(p)[k], ends
+                located, precision = _locate(
+                    curve, point, step, lambda p, k=kind: curve.test_functions(p)[k], ends
                 )
-                branch.special.append(located)
+                after = len(branch.points) - 1
+                branch.special.append(SpecialPoint(kind, located, precision, after))
         branch.points.append(curve.record(new))
         branch.tests.append(new_tests)
         if reason is not None:
@@ -173,11 +186,13 @@ def _locate(
     curve: Curve,
     point: Any,
     step: float,
-    kind: str,
     test: Callable[[Any], float],
     ends: tuple[float, float],
-) -> SpecialPoint:
-    """Zero of a test function between a point and the one a step ahead, its values there given."""
+) -> tuple[Any, float]:
+    """Zero of a test function between a point and the one a step ahead, its values there given.
+
+    Returns the point and the arclength within which the zero lies.
+    """
     found = {0.0: (point, ends[0])}
 
     def along(length: float) -> float:
@@ -193,7 +208,7 @@ def _locate(
     precision = 1e-10 * step
     brentq(along, 0.0, step, xtol=precision, rtol=1e-12, maxiter=60, full_output=True, disp=False)
     best = min(found.values(), key=lambda pair: abs(pair[1]))
-    return SpecialPoint(kind, curve.record(best[0]), precision)
+    return curve.record(best[0]), precision
 
 
 @dataclass(frozen=True)
@@ -300,5 +315,6 @@ def sign_changes(
     for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
         step = float((points[i + 1].z - points[i].z) @ points[i].tangent)
         ends = (float(values[i]), float(values[i + 1]))
-        found.append(_locate(curve, points[i], step, kind, test, ends))
+        located, precision = _locate(curve, points[i], step, test, ends)
+        found.append(SpecialPoint(kind, located, precision, int(i)))
     return found

@@ -78,15 +78,16 @@ class CriticalCurve:
     points : list of HopfPoint
     tangents : (len(points), 3) array
         Tangents in (p_1, p_2, p_3).
-    special : list of (str, HopfPoint)
-        Kinds: ``largest`` (p_2 has an extremum), ``fold`` (p_3 has an extremum).
+    special : list of (str, int, HopfPoint)
+        Kind, index of the point before, and point. Kinds: ``largest`` (p_2 has an extremum),
+        ``fold`` (p_3 has an extremum), ``vanishing`` (p_2 passes the level given).
     ended : str
         Why the walk ended.
     """
 
     points: list[HopfPoint]
     tangents: np.ndarray
-    special: list[tuple[str, HopfPoint]]
+    special: list[tuple[str, int, HopfPoint]]
     ended: str
 
 
@@ -189,12 +190,16 @@ class _CriticalSystem:
 
 
 def _first(
-    equations: _CriticalSystem, start: HopfPoint, direction: int, tolerance: float
+    equations: _CriticalSystem, start: HopfPoint, direction: int, level: float, tolerance: float
 ) -> tuple[AlgebraicCurve, CurvePoint | None]:
     """The curve and its point at the p_3 of the start."""
 
     def tests(point: CurvePoint) -> dict[str, float]:
-        return {"largest": point.tangent[-2], "fold": point.tangent[-1]}
+        return {
+            "largest": point.tangent[-2],
+            "fold": point.tangent[-1],
+            "vanishing": point.z[-2] - level,
+        }
 
     curve = AlgebraicCurve(equations.residual, equations.derivative, tests, tolerance)
     z = equations.pack(start)
@@ -213,7 +218,7 @@ def solve_critical_point(
     Parameters as in `critical_hopf_curve`.
     """
     equations = _CriticalSystem(system, start, free)
-    first = _first(equations, start, 1, tolerance)[1]
+    first = _first(equations, start, 1, 0.0, tolerance)[1]
     return None if first is None else equations.unpack(first.z, first.residual)
 
 
@@ -225,6 +230,7 @@ def critical_hopf_curve(
     stop: Callable[[np.ndarray], str | None],
     *,
     direction: int,
+    level: float = 0.0,
     tolerance: float = 1e-10,
 ) -> CriticalCurve:
     """Curve of critical Hopf points in three parameters by pseudo-arclength continuation.
@@ -243,6 +249,8 @@ def critical_hopf_curve(
         Reason to end at (p_1, p_2, p_3), or None; a point outside the ``window`` is left out.
     direction : {1, -1}
         Sign of the change of p_3 at the start.
+    level : float
+        Value of p_2 at which points are located.
     tolerance : float
         Largest component of the residual.
 
@@ -252,15 +260,22 @@ def critical_hopf_curve(
         Without points if Newton's method fails at the start.
     """
     equations = _CriticalSystem(system, start, free)
-    curve, first = _first(equations, start, direction, tolerance)
+    curve, first = _first(equations, start, direction, level, tolerance)
     if first is None:
         return CriticalCurve([], np.empty((0, 3)), [], "no_convergence")
     branch = trace(
-        curve, first, control, lambda point: stop(point.z[-3:]), discard=frozenset({"window"})
+        curve,
+        first,
+        control,
+        lambda point: stop(point.z[-3:]),
+        discard=frozenset({"window"}),
+        approach=frozenset({"window"}),
     )
     return CriticalCurve(
         points=[equations.unpack(point.z, point.residual) for point in branch.points],
         tangents=np.array([point.tangent[-3:] for point in branch.points]),
-        special=[(s.kind, equations.unpack(s.point.z, s.point.residual)) for s in branch.special],
+        special=[
+            (s.kind, s.after, equations.unpack(s.point.z, s.point.residual)) for s in branch.special
+        ],
         ended=branch.ended,
     )

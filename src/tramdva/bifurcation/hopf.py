@@ -388,7 +388,9 @@ def hopf_curve(
         back = float(np.linalg.norm(point.z - first.z))
         return "closed" if back < step and travelled[0] > 4.0 * step else None
 
-    branch = trace(curve, first, control, leaves, discard=frozenset({"window"}))
+    branch = trace(
+        curve, first, control, leaves, discard=frozenset({"window"}), approach=frozenset({"window"})
+    )
     points = [extended.unpack(point.z, point.residual) for point in branch.points]
     coefficients = first_lyapunov_coefficients(system, points, component)
     special = branch.special + sign_changes(

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import eigvals
+from scipy.optimize import brentq
 
 from tramdva.bifurcation import collocation
 from tramdva.bifurcation.collocation import BorderedFactors
@@ -19,6 +20,8 @@ from tramdva.bifurcation.system import DynamicalSystem
 
 # A chord step must shrink the residual by this factor, else the matrix is factorised anew.
 _CHORD_RATE = 0.2
+# Near a Hopf point a small orbit fixes the parameter to the tolerance over its amplitude only.
+_NEAR_ENOUGH = 1e-7
 
 
 class LimitCycleCurve:
@@ -135,6 +138,31 @@ class LimitCycleCurve:
         predicted = self.predict(point, 2.0 * distance / (slope + np.copysign(root, slope)))
         predicted.parameters[self.index] = value
         return self._solve(predicted, fixed_parameter=True)[0]
+
+    def between(self, point: LimitCycle, following: LimitCycle, value: float) -> LimitCycle | None:
+        """Orbit at a value of the parameter between neighbours of the branch; None if that fails.
+
+        Sought along the arclength: slower than `at_parameter`, but safe where the branch is steep.
+        """
+        found: dict[float, LimitCycle] = {}
+
+        def distance(length: float) -> float:
+            cycle = self.correct(self.predict(point, length))[0] if length else point
+            if cycle is None:
+                raise ArithmeticError("no orbit on the way")
+            missed = float(cycle.parameters[self.index] - value)
+            found[abs(missed)] = cycle
+            return missed
+
+        try:
+            brentq(distance, 0.0, following.step, rtol=1e-14)
+        except (ArithmeticError, ValueError):  # or the ends have no different signs
+            return None
+        missed = min(found)
+        exact = self.at_parameter(found[missed], value)
+        if exact is None and missed <= _NEAR_ENOUGH * abs(value):
+            return found[missed]
+        return exact
 
     # Corrector
 
@@ -307,17 +335,24 @@ def follow(
         the last one before), ``window``, ``max_points``, ``no_convergence`` or ``sharp_turn``.
     """
     low, high = bounds
-    previous = [start.tangent.nodal]
+    last = [start.tangent.nodal]  # deviation of the last orbit of the branch
 
     def ends(cycle: LimitCycle) -> str | None:
         deviation = cycle.deviation()
-        before = previous[-1]
-        same_mesh = before.shape == deviation.shape
-        previous[:] = [deviation]
-        if same_mesh and np.sum(before * deviation) < 0.0:
-            return "hopf_point"
-        return None if low <= cycle.parameters[curve.index] <= high else "window"
+        if last[0].shape == deviation.shape and np.sum(last[0] * deviation) < 0.0:
+            return "hopf_point"  # the amplitude passed zero
+        if not low <= cycle.parameters[curve.index] <= high:
+            return "window"
+        last[:] = [deviation]
+        return None
 
-    branch = trace(curve, start, control, ends, discard=frozenset({"hopf_point", "window"}))
+    branch = trace(
+        curve,
+        start,
+        control,
+        ends,
+        discard=frozenset({"hopf_point", "window"}),
+        approach=frozenset({"window"}),
+    )
     del branch.points[0], branch.tests[0]
     return branch
