@@ -112,6 +112,11 @@ STAGES: dict[str, tuple[str, ...]] = {
     "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
     "fig06_cycle_amplitudes": _FIGURE,
     "fig07_frequency_response": _FIGURE,
+    "fig08_bogie": (*_FIGURE, "bogie"),
+    "fig09_curve_entry": (*_FIGURE, "study.curve_entry.entry"),
+    "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
+    "bogie_stability": (*_FIGURE, "creep_force.B"),
+    "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
 }
 
 
