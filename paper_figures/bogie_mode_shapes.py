@@ -29,7 +29,7 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
 
 def draw(modes: dict[str, np.ndarray], wheel_radius: float) -> Figure:
     """Draw the axle from behind, outer wheel to the right, in each of its modes."""
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 96)
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 100)
     panels = figure.subplots(2, 2, sharex=True, sharey=True).flat
     for row, (axes, name) in enumerate(zip(panels, modes["shape_mode"], strict=False)):
         draw_mode(axes, modes, row, wheel_radius)
@@ -50,12 +50,11 @@ def draw(modes: dict[str, np.ndarray], wheel_radius: float) -> Figure:
 
 
 def energies(modes: dict[str, np.ndarray], row: int) -> str:
-    """Name the three largest shares of the strain energy."""
+    """Name the two largest shares of the strain energy."""
     share = modes["strain_energy_share"][row]
-    largest = np.argsort(share)[::-1][:3]
+    largest = np.argsort(share)[::-1][:2]
     return ", ".join(
-        f"{str(modes['energy_class'][k]).replace('_', ' ')} {100 * share[k]:.0f} %"
-        for k in largest
+        f"{str(modes['energy_class'][k]).replace('_', ' ')} {100 * share[k]:.0f} %" for k in largest
     )
 
 

@@ -49,15 +49,15 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     axes.axvline(operating_B, color="0.6", linewidth=0.6, linestyle=":")
     axes.set(
         xlabel="friction decrease B (s/m)", ylabel="growth rate (1/s)",
-        xlim=(0.0, modes["friction_decrease"][-1]), ylim=(-12.0, 12.0),
+        xlim=(0.0, modes["friction_decrease"][-1]), ylim=(-30.0, 15.0),
     )  # fmt: skip
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.28, 0.42), fontsize="x-small")
 
 
 def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
     """Draw the growth rate over stiffness and damping of the absorber; stable is grey."""
     stiffness, growth = modes["map_c_T"] / 1e5, modes["map_growth_rate"]
-    levels = np.arange(-8.0, 0.6, 0.5)
+    levels = np.arange(-18.0, 1.1, 1.0)
     image = axes.contourf(
         stiffness, modes["map_d_T"], growth, levels, cmap=figures.SPREAD, extend="both"
     )

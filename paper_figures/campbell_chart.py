@@ -23,7 +23,9 @@ KMH = 3.6
 def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
     """Draw the figure from the modes of the bogie."""
     with figures.style(STYLE):
-        figure = draw(results.read(bogie_modes), cfg["bogie"]["wheel"]["radius"], cfg["track"]["speed"])
+        figure = draw(
+            results.read(bogie_modes), cfg["bogie"]["wheel"]["radius"], cfg["track"]["speed"]
+        )
         figures.save(figure, pdf, png, f"Orders over speed: {cfg['label']}")
 
 
@@ -52,7 +54,8 @@ def draw_order(axes: Axes, order: int, wheel_radius: float, fastest: float) -> N
     inside = min(1.0, TOP / frequency)
     axes.text(
         0.97 * inside * fastest * KMH, 0.97 * inside * frequency, f"{order}", fontsize="small",
-        ha="center", va="center", backgroundcolor="white", zorder=4,
+        ha="center", va="center", zorder=4,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
     )  # fmt: skip
 
 
@@ -60,7 +63,10 @@ def draw_level(axes: Axes, words: str, frequency: float, fastest: float) -> None
     """Draw a mode of the front axle as a level line."""
     axes.plot([0.0, fastest * KMH], [frequency, frequency], color="C1", linewidth=1.2)
     axes.annotate(
-        f"{words}, {frequency:.0f} Hz", (0.3, frequency), (0, 2), textcoords="offset points",
+        f"{words}, {frequency:.0f} Hz",
+        (0.3, frequency),
+        (0, 2),
+        textcoords="offset points",
         fontsize="small",
     )
 

@@ -35,9 +35,7 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, curve_entry: str, bogie_mo
         Result files.
     """
     with figures.style(STYLE):
-        figure = draw(
-            results.read(curve_entry), results.read(bogie_modes), cfg["study"]["entry"]
-        )
+        figure = draw(results.read(curve_entry), results.read(bogie_modes), cfg["study"]["entry"])
         figures.save(figure, pdf, png, f"Curve entry: {cfg['label']}")
 
 
@@ -65,9 +63,7 @@ def draw(ride: dict[str, np.ndarray], modes: dict[str, np.ndarray], entry: float
     return figure
 
 
-def draw_ride(
-    axes: Axes, ride: dict[str, np.ndarray], velocity: np.ndarray, entry: float
-) -> None:
+def draw_ride(axes: Axes, ride: dict[str, np.ndarray], velocity: np.ndarray, entry: float) -> None:
     """Draw the velocities over the time; the scale leaves out the blow at the entry."""
     time = ride["time"]
     for row, values in enumerate(velocity):

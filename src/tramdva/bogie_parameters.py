@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from tramdva.quantities import Interval, Real, Section, Whole, quantity, unique
+from tramdva.quantities import Real, Section, quantity
 
 GREATEST_CHORD_ANGLE = 0.05  # rad; linear kinematics and the contact tables end near 0.06
 GREATEST_LATERAL_ACCELERATION = 4.0  # m/s^2, of the curve less the cant
@@ -60,7 +60,9 @@ class RigidBody(Section):
     """Mass, inertia and height of a rigid body."""
 
     mass: Real = quantity("mass", "kg", 1, 1e5, "ASSUME")
-    roll_inertia: Real = quantity("inertia about the longitudinal axis", "kg m^2", 0.01, 1e6, "ASSUME")
+    roll_inertia: Real = quantity(
+        "inertia about the longitudinal axis", "kg m^2", 0.01, 1e6, "ASSUME"
+    )
     pitch_inertia: Real = quantity("inertia about the lateral axis", "kg m^2", 0.01, 1e6, "ASSUME")
     yaw_inertia: Real = quantity("inertia about the vertical axis", "kg m^2", 0.01, 1e6, "ASSUME")
     height: Real = quantity("height of the centre of mass over the rail", "m", 0.05, 4, "ASSUME")
@@ -197,7 +199,9 @@ class BogieAbsorber(Section):
         "distance from the track centre", "m", 0, 1.2, "text to figure 8"
     )
     height: Real = quantity("height over the rail, for the drawing", "m", 0, 1, "text to figure 8")
-    I_T: Real = quantity("inertia of the absorber (mass if translation)", "kg m^2", 0.01, 1e3, "Table 3")
+    I_T: Real = quantity(
+        "inertia of the absorber (mass if translation)", "kg m^2", 0.01, 1e3, "Table 3"
+    )
     c_T: Real = quantity("stiffness (N/m if translation)", "N m/rad", 1, 1e9, "Table 3")
     d_T: Real = quantity("damping (N s/m if translation)", "N m s/rad", 0, 1e7, "Table 3")
 
@@ -250,10 +254,18 @@ class RailProfile(Section):
 
     crown_radius: Real = quantity("radius of the crown", "m", 0.05, 1, "ASSUME")
     corner_radius: Real = quantity("radius of the gauge corner", "m", 3e-3, 0.05, "ASSUME")
-    corner_start: Real = quantity("corner arc from the top of the crown", "m", 5e-3, 0.045, "ASSUME")
-    field_half_width: Real = quantity("extent of the crown to the field side", "m", 0.01, 0.05, "ASSUME")
+    corner_start: Real = quantity(
+        "corner arc from the top of the crown", "m", 5e-3, 0.045, "ASSUME"
+    )
+    field_half_width: Real = quantity(
+        "extent of the crown to the field side", "m", 0.01, 0.05, "ASSUME"
+    )
     lateral_position: Real = quantity(
-        "top of the crown outside the tape circle of the centred wheelset", "m", -0.02, 0.02, "ASSUME"
+        "top of the crown outside the tape circle of the centred wheelset",
+        "m",
+        -0.02,
+        0.02,
+        "ASSUME",
     )
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from tramdva.bogie_parameters import Bogie, ContactGeometry, Track
+from tramdva.bogie_parameters import GREATEST_CHORD_ANGLE, Bogie, ContactGeometry, Track
 from tramdva.bogie_study import (
     BogieModesNumerics,
     BogieModesStudy,
@@ -221,6 +221,16 @@ class Line(Section):
     bogie: Bogie
     contact_geometry: ContactGeometry
     study: Study
+
+    @model_validator(mode="after")
+    def _bogie_fits_the_curve(self) -> Self:
+        chord = self.bogie.half_wheelbase / self.track.radius
+        if chord > GREATEST_CHORD_ANGLE:
+            raise ValueError(
+                f"bogie.half_wheelbase/track.radius = {chord:.3g} must be at most "
+                f"{GREATEST_CHORD_ANGLE:g} (small angles; the contact tables end beyond)"
+            )
+        return self
 
     @model_validator(mode="after")
     def _absorber_lighter_than_axle(self) -> Self:

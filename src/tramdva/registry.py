@@ -276,7 +276,9 @@ STAGES: dict[str, Stage] = {
             "slip_velocity": real("absorber contact", "m/s", "slip velocity"),
             "semi_axis_longitudinal": real("absorber contact", "m", "semi-axis along the rail"),
             "semi_axis_lateral": real("absorber contact", "m", "semi-axis across the rail"),
-            "wheel_position": real("absorber contact", "m", "contact from the tape circle, outwards"),
+            "wheel_position": real(
+                "absorber contact", "m", "contact from the tape circle, outwards"
+            ),
             "forward_shift": real("absorber contact", "m", "contact ahead of the wheel's centre"),
             "wheel_load": real("absorber wheel", "N", "vertical force of the rail in the curve"),
             "straight_wheel_load": real("absorber wheel", "N", "the same on the straight track"),
@@ -299,7 +301,9 @@ STAGES: dict[str, Stage] = {
             "critical_friction_decrease": real("absorber", "s/m", "B where self-excitation begins"),
             "map_d_T": real("map_d_T", "N m s/rad", "damping of the absorber"),
             "map_c_T": real("map_c_T", "N m/rad", "stiffness of the absorber"),
-            "map_growth_rate": real("map_d_T map_c_T", "1/s", "largest growth rate at the line's B"),
+            "map_growth_rate": real(
+                "map_d_T map_c_T", "1/s", "largest growth rate at the line's B"
+            ),
             "shape_mode": text("shape_mode", "mode of the front axle without absorber"),
             "shape_frequency": real("shape_mode", "Hz", "frequency"),
             "shape_damping_ratio": real("shape_mode", "1", "damping ratio"),

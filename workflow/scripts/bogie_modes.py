@@ -4,9 +4,13 @@ from tramdva import job, results
 from tramdva.bogie import stages
 
 
-def main(*, output: str, code: str, cfg: dict, contact_geometry: str, curving_equilibrium: str) -> None:
+def main(
+    *, output: str, code: str, cfg: dict, contact_geometry: str, curving_equilibrium: str
+) -> None:
     """Compute the modes and the stability maps."""
-    values = stages.bogie_modes(cfg, results.read(contact_geometry), results.read(curving_equilibrium))
+    values = stages.bogie_modes(
+        cfg, results.read(contact_geometry), results.read(curving_equilibrium)
+    )
     results.save(output, "bogie_modes", values, parameters=cfg, code=code)
 
 

@@ -4,9 +4,13 @@ from tramdva import job, results
 from tramdva.bogie import stages
 
 
-def main(*, output: str, code: str, cfg: dict, contact_geometry: str, curving_equilibrium: str) -> None:
+def main(
+    *, output: str, code: str, cfg: dict, contact_geometry: str, curving_equilibrium: str
+) -> None:
     """Integrate the ride without and with absorbers."""
-    values = stages.curve_entry(cfg, results.read(contact_geometry), results.read(curving_equilibrium))
+    values = stages.curve_entry(
+        cfg, results.read(contact_geometry), results.read(curving_equilibrium)
+    )
     results.save(output, "curve_entry", values, parameters=cfg, code=code)
 
 

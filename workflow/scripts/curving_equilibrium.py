@@ -6,7 +6,9 @@ from tramdva.bogie import stages
 
 def main(*, output: str, code: str, cfg: dict, contact_geometry: str, absorber_tuning: str) -> None:
     """Compute the equilibria without and with absorbers."""
-    values = stages.curving_equilibrium(cfg, results.read(contact_geometry), results.read(absorber_tuning))
+    values = stages.curving_equilibrium(
+        cfg, results.read(contact_geometry), results.read(absorber_tuning)
+    )
     results.save(output, "curving_equilibrium", values, parameters=cfg, code=code)
 
 

@@ -56,9 +56,7 @@ class _Section(NamedTuple):
     places: tuple[float, float]
 
 
-def ride(
-    route: Route, duration: float, interval: float, every: int, tolerance: float
-) -> Ride:
+def ride(route: Route, duration: float, interval: float, every: int, tolerance: float) -> Ride:
     """Integrate from the equilibrium on the straight track through the curve entry.
 
     Parameters
@@ -72,7 +70,7 @@ def ride(
     Absolute velocities are continuous. Where the turning of a frame jumps, the velocities relative
     to it jump by the frame's motion the other way.
     """
-    intervals = int(round(duration / interval))
+    intervals = round(duration / interval)
     samples = intervals // every
     contacts = route.systems[0].contacts
     zones = len(contacts.tables)
@@ -92,8 +90,10 @@ def ride(
         turning = _frames(route, inside).turning
         if before is not None:
             state = _after_jump(system, state, turning - before)
-        passage = _passage(route, section, basis, system) if entered else (
-            integration.steady(basis, system.curvatures)
+        passage = (
+            _passage(route, section, basis, system)
+            if entered
+            else (integration.steady(basis, system.curvatures))
         )
         z = integration.modal_state(basis, state)
         tables = integration.step_table(basis.eigenvalue, interval)
@@ -137,8 +137,8 @@ def _sections(route: Route, duration: float, interval: float, every: int) -> lis
     end = route.speed * duration
     places = [place for place in places if 0.0 < place < end]
     unit = interval * every * route.speed
-    marks = [0] + [every * int(round(p / unit)) for p in places]
-    marks += [every * int(round(end / unit))]
+    marks = [0] + [every * round(p / unit) for p in places]
+    marks += [every * round(end / unit)]
     places = [0.0, *places, end]
     return [
         _Section(a, b, (p, q))
@@ -154,9 +154,7 @@ def _after_jump(system: System, state: np.ndarray, jump: np.ndarray) -> np.ndarr
     return state
 
 
-def _passage(
-    route: Route, section: _Section, basis: ModalBasis, system: System
-) -> Passage:
+def _passage(route: Route, section: _Section, basis: ModalBasis, system: System) -> Passage:
     """Loads and curvatures of a section beyond those of the full curve.
 
     Offsets of the frames are cubic polynomials of the place between two corners: four values give

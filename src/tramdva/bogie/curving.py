@@ -141,7 +141,6 @@ def equilibrium(
     a contact changes by much more than its entry in `_LARGEST_CHANGE`: the first steps follow the
     vehicle into the curve, the last, of endless length, are Newton's.
     """
-    k = system.size
     state, length, mass = start.copy(), 1e-3, lu_factor(system.vehicle.mass)
     rate = _rate(system, state, mass)
     change = np.inf
@@ -207,9 +206,7 @@ def angle_of_attack(system: System, equilibrium_: Equilibrium) -> np.ndarray:
     )
 
 
-def enter_curve(
-    systems: list[System], start: np.ndarray, tolerance: float = 1e-9
-) -> Equilibrium:
+def enter_curve(systems: list[System], start: np.ndarray, tolerance: float = 1e-9) -> Equilibrium:
     """Equilibrium on the last of several systems, followed through them from a start.
 
     Parameters

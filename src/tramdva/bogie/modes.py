@@ -1,5 +1,6 @@
 """Modes of the vehicle on the track: names, growth rates, critical friction decrease, tuning."""
 
+import itertools
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -120,7 +121,7 @@ def critical_friction_decrease(
 
     grid = np.arange(0.0, largest + 0.1, 0.2)
     before = growth(grid[0])
-    for low, high in zip(grid[:-1], grid[1:], strict=True):
+    for low, high in itertools.pairwise(grid):
         after = growth(high)
         if before < 0.0 <= after:
             return float(brentq(growth, low, high, xtol=1e-4))
@@ -143,13 +144,25 @@ def growth_with(
 def tuned_absorber(
     line: BogieLine, known: Running, limits: tuple[float, float], start: tuple[float, float]
 ) -> tuple[float, float]:
-    """Stiffness and damping of least growth rate, from a start; inertia as configured.
+    """Stiffness and damping that damp antisymmetric bending most; inertia as configured.
 
     Parameters
     ----------
     start : stiffness (N m/rad, or N/m) and damping (N m s/rad, or N s/m)
+
+    Notes
+    -----
+    The aim is the largest growth rate of the modes with more than half of their strain energy in
+    antisymmetric bending and in the absorbers; others, which no absorber reaches, do not count.
     """
-    growth = growth_with(line, known, limits)
+    classes = [ENERGY_CLASSES.index(name) for name in ("antisymmetric_bending", "absorber")]
+
+    def growth(c_T: float, d_T: float) -> float:
+        run = changed(line, absorber(line, c_T, d_T), known)
+        found = modes(run.curve, run.equilibrium.state, limits)
+        reached = found.share[:, classes].sum(axis=(1, 2)) > 0.5
+        return float(found.eigenvalue.real[reached].max()) if reached.any() else np.inf
+
     found = minimize(
         lambda logarithms: growth(*np.exp(logarithms)),
         np.log(start),

@@ -60,7 +60,7 @@ def wheel_places(bogie, contact_geometry, speed: float) -> WheelPlaces:
 
 
 def zone_tables(
-    contact_geometry, wheel_radius: float, shift_step: float = 2.5e-5, yaw_nodes: int = 12
+    contact_geometry, wheel_radius: float, shift_step: float = 2.5e-5, yaw_nodes: int = 24
 ) -> tuple:
     """Contact tables of the zones of the parametric profiles (`bogie_parameters`).
 
@@ -179,7 +179,9 @@ def wheel_forces(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def all_wheel_forces(contacts, curvatures, local, deviation, deviation_rate, scratch, results, force):
+def all_wheel_forces(
+    contacts, curvatures, local, deviation, deviation_rate, scratch, results, force
+):
     """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
 
     `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4,).

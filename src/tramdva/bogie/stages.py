@@ -199,9 +199,7 @@ def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
     found = modal.modes(none.curve, none.equilibrium.state, shown)
     wanted = ("first_bending", "second_bending", "third_bending", "resilient_wheel")
     names = [f"{name}_front" for name in wanted]
-    chosen = [
-        found.name.index(name) if name in found.name else -1 for name in names
-    ]
+    chosen = [found.name.index(name) if name in found.name else -1 for name in names]
     positions, motion = modal.axle_points(none.curve, "front")
     k = none.curve.size
     shape = np.array([motion[..., :k] @ found.shape[:, i] for i in chosen])

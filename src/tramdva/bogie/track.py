@@ -84,9 +84,7 @@ def frame_motion(line: TrackLine, s: float, half_wheelbase: float, speed: float)
         [theta - theta[0] - places * kappa[0], kappa - kappa[0], (roll_rate - roll_rate[0]) / speed]
     )
     turning = np.column_stack([zero, speed * kappa, roll_rate])
-    acceleration = np.column_stack(
-        [speed**2 * kappa, speed**2 * line.curvature * slope, zero]
-    )
+    acceleration = np.column_stack([speed**2 * kappa, speed**2 * line.curvature * slope, zero])
     return FrameMotion(offset, rate, turning, acceleration, roll, kappa)
 
 
