@@ -54,6 +54,10 @@ STAGES = [
     "cycle_amplitudes",
     "absorber_tuning",
     "frequency_response",
+    "contact_geometry",
+    "curving_equilibrium",
+    "bogie_modes",
+    "curve_entry",
 ]
 PICTURES = [
     "fig02_stability_map",
@@ -62,6 +66,11 @@ PICTURES = [
     "fig05_critical_hopf_curve",
     "fig06_cycle_amplitudes",
     "fig07_frequency_response",
+    "fig08_bogie",
+    "fig09_curve_entry",
+    "bogie_mode_shapes",
+    "bogie_stability",
+    "campbell_chart",
 ]
 
 
@@ -224,6 +233,83 @@ rule frequency_response:
         "workflow/scripts/frequency_response.py"
 
 
+rule contact_geometry:
+    output:
+        "results/{line}/contact_geometry.nc",
+    log:
+        "logs/{line}/contact_geometry.log",
+    benchmark:
+        "logs/{line}/contact_geometry.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "contact_geometry"),
+        code=code_hash(SCRIPTS / "contact_geometry.py"),
+    message:
+        "{wildcards.line}: contact tables of the profiles"
+    script:
+        "workflow/scripts/contact_geometry.py"
+
+
+rule curving_equilibrium:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        absorber_tuning=rules.absorber_tuning.output[0],
+    output:
+        "results/{line}/curving_equilibrium.nc",
+    log:
+        "logs/{line}/curving_equilibrium.log",
+    benchmark:
+        "logs/{line}/curving_equilibrium.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "curving_equilibrium"),
+        code=code_hash(SCRIPTS / "curving_equilibrium.py"),
+    message:
+        "{wildcards.line}: steady curving of the bogie"
+    script:
+        "workflow/scripts/curving_equilibrium.py"
+
+
+rule bogie_modes:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        curving_equilibrium=rules.curving_equilibrium.output[0],
+    output:
+        "results/{line}/bogie_modes.nc",
+    log:
+        "logs/{line}/bogie_modes.log",
+    benchmark:
+        "logs/{line}/bogie_modes.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "bogie_modes"),
+        code=code_hash(SCRIPTS / "bogie_modes.py"),
+    message:
+        "{wildcards.line}: modes of the bogie"
+    script:
+        "workflow/scripts/bogie_modes.py"
+
+
+rule curve_entry:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        curving_equilibrium=rules.curving_equilibrium.output[0],
+    output:
+        "results/{line}/curve_entry.nc",
+    log:
+        "logs/{line}/curve_entry.log",
+    benchmark:
+        "logs/{line}/curve_entry.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "curve_entry"),
+        code=code_hash(SCRIPTS / "curve_entry.py"),
+    message:
+        "{wildcards.line}: ride into the curve (figure 9)"
+    script:
+        "workflow/scripts/curve_entry.py"
+
+
 rule fig02_stability_map:
     input:
         stability_map=rules.stability_map.output[0],
@@ -376,6 +462,130 @@ rule fig07_frequency_response:
         "{wildcards.line}: figure 7"
     script:
         "paper_figures/fig07_frequency_response.py"
+
+
+rule fig08_bogie:
+    output:
+        pdf="paper_figures/{line}/fig08_bogie.pdf",
+        png=report(
+            "paper_figures/{line}/fig08_bogie.png",
+            category="Bogie",
+            caption="workflow/report/fig08.rst",
+            labels={"line": "{line}", "shows": "Figure 8"},
+        ),
+    log:
+        "logs/{line}/fig08_bogie.log",
+    benchmark:
+        "logs/{line}/fig08_bogie.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig08_bogie"),
+        code=code_hash(FIGURES / "fig08_bogie.py", STYLE),
+    message:
+        "{wildcards.line}: figure 8"
+    script:
+        "paper_figures/fig08_bogie.py"
+
+
+rule fig09_curve_entry:
+    input:
+        curve_entry=rules.curve_entry.output[0],
+        bogie_modes=rules.bogie_modes.output[0],
+    output:
+        pdf="paper_figures/{line}/fig09_curve_entry.pdf",
+        png=report(
+            "paper_figures/{line}/fig09_curve_entry.png",
+            category="Bogie",
+            caption="workflow/report/fig09.rst",
+            labels={"line": "{line}", "shows": "Figure 9"},
+        ),
+    log:
+        "logs/{line}/fig09_curve_entry.log",
+    benchmark:
+        "logs/{line}/fig09_curve_entry.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig09_curve_entry"),
+        code=code_hash(FIGURES / "fig09_curve_entry.py", STYLE),
+    message:
+        "{wildcards.line}: figure 9"
+    script:
+        "paper_figures/fig09_curve_entry.py"
+
+
+rule bogie_mode_shapes:
+    input:
+        bogie_modes=rules.bogie_modes.output[0],
+    output:
+        pdf="paper_figures/{line}/bogie_mode_shapes.pdf",
+        png=report(
+            "paper_figures/{line}/bogie_mode_shapes.png",
+            category="Bogie",
+            caption="workflow/report/bogie_mode_shapes.rst",
+            labels={"line": "{line}", "shows": "Mode shapes"},
+        ),
+    log:
+        "logs/{line}/bogie_mode_shapes.log",
+    benchmark:
+        "logs/{line}/bogie_mode_shapes.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "bogie_mode_shapes"),
+        code=code_hash(FIGURES / "bogie_mode_shapes.py", STYLE),
+    message:
+        "{wildcards.line}: mode shapes of the front axle"
+    script:
+        "paper_figures/bogie_mode_shapes.py"
+
+
+rule bogie_stability:
+    input:
+        bogie_modes=rules.bogie_modes.output[0],
+    output:
+        pdf="paper_figures/{line}/bogie_stability.pdf",
+        png=report(
+            "paper_figures/{line}/bogie_stability.png",
+            category="Bogie",
+            caption="workflow/report/bogie_stability.rst",
+            labels={"line": "{line}", "shows": "Stability of the bogie"},
+        ),
+    log:
+        "logs/{line}/bogie_stability.log",
+    benchmark:
+        "logs/{line}/bogie_stability.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "bogie_stability"),
+        code=code_hash(FIGURES / "bogie_stability.py", STYLE),
+    message:
+        "{wildcards.line}: stability of the bogie"
+    script:
+        "paper_figures/bogie_stability.py"
+
+
+rule campbell_chart:
+    input:
+        bogie_modes=rules.bogie_modes.output[0],
+    output:
+        pdf="paper_figures/{line}/campbell_chart.pdf",
+        png=report(
+            "paper_figures/{line}/campbell_chart.png",
+            category="Bogie",
+            caption="workflow/report/campbell_chart.rst",
+            labels={"line": "{line}", "shows": "Orders over speed"},
+        ),
+    log:
+        "logs/{line}/campbell_chart.log",
+    benchmark:
+        "logs/{line}/campbell_chart.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "campbell_chart"),
+        code=code_hash(FIGURES / "campbell_chart.py", STYLE),
+    message:
+        "{wildcards.line}: order-frequency-speed chart"
+    script:
+        "paper_figures/campbell_chart.py"
 
 
 rule table2_absorber_designs:

@@ -27,7 +27,8 @@ def values_of(stage: str, length: int = 5) -> dict[str, np.ndarray]:
     for name, variable in STAGES[stage].variables.items():
         shape = tuple(LENGTHS.get(d, length) if length else 0 for d in variable.dimensions)
         if variable.kind == "text":
-            values[name] = np.array([f"①{i}" for i in range(shape[0])], dtype=str)
+            count = int(np.prod(shape))
+            values[name] = np.array([f"①{i}" for i in range(count)], dtype=str).reshape(shape)
         elif variable.kind == "real":
             values[name] = random.random(shape)
         elif variable.kind == "truth":

@@ -32,6 +32,15 @@ _VARIANTS = (
     "absorber_variants.c_T",
     "absorber_variants.d_T",
 )
+_BOGIE = (
+    "track",
+    "bogie",
+    "contact_geometry",
+    "creep_force.mu_0",
+    "creep_force.A",
+    "creep_force.B",
+    "numerics.bogie",
+)
 _FIGURE = ("label",)
 _FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
 _FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
@@ -89,12 +98,25 @@ STAGES: dict[str, tuple[str, ...]] = {
         "study.frequency_response",
         "numerics.frequency_response",
     ),
+    "contact_geometry": (
+        "contact_geometry",
+        "bogie.wheel.radius",
+        "numerics.contact_geometry",
+    ),
+    "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
+    "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
+    "curve_entry": (*_BOGIE, "study.curve_entry", "numerics.curve_entry"),
     "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
     "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
     "fig06_cycle_amplitudes": _FIGURE,
     "fig07_frequency_response": _FIGURE,
+    "fig08_bogie": (*_FIGURE, "bogie"),
+    "fig09_curve_entry": (*_FIGURE, "study.curve_entry.entry"),
+    "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
+    "bogie_stability": (*_FIGURE, "creep_force.B"),
+    "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
 }
 
 

@@ -9,56 +9,22 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
+
+from tramdva.bogie_parameters import GREATEST_CHORD_ANGLE, Bogie, ContactGeometry, Track
+from tramdva.bogie_study import (
+    BogieModesNumerics,
+    BogieModesStudy,
+    BogieNumerics,
+    ContactGeometryNumerics,
+    CurveEntryNumerics,
+    CurveEntryStudy,
+)
+from tramdva.quantities import Interval, Real, Section, Whole, quantity, unique
 
 LINE_NAME = r"[a-z0-9][a-z0-9_-]{0,40}"
 VARIANT_NAME = r"[a-z][a-z0-9_]{0,40}"
 GREATEST_LATERAL_ACCELERATION = 4.0  # m/s^2; trams in service stay near 1
-
-
-def refuse_bool(value: Any) -> Any:
-    """Let true and false not pass for 1 and 0."""
-    if isinstance(value, bool):
-        raise ValueError("a truth value is no number")
-    return value
-
-
-def unique(values: tuple) -> tuple:
-    """Refuse a list that holds a value twice."""
-    twice = {value for value in values if values.count(value) > 1}
-    if twice:
-        raise ValueError(f"{', '.join(map(str, sorted(twice)))} is given twice")
-    return values
-
-
-Real = Annotated[float, BeforeValidator(refuse_bool)]
-Whole = Annotated[int, BeforeValidator(refuse_bool)]
-
-
-def quantity(meaning: str, unit: str, low: float, high: float, origin: str = "") -> Any:
-    """Describe a number: what it is, its unit, its allowed range and where its value is from."""
-    return Field(
-        ge=low,
-        le=high,
-        description=meaning,
-        json_schema_extra={"unit": unit, "origin": origin},
-    )
-
-
-class Section(BaseModel):
-    """A map of the configuration: frozen, complete, without unknown keys."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class Interval(Section):
-    """Both ends of a range."""
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.min < self.max:
-            raise ValueError("min must be less than max")
-        return self
 
 
 class Curve(Section):
@@ -221,6 +187,8 @@ class Study(Section):
     critical_hopf_curve: CriticalHopfCurveStudy
     cycle_amplitudes: CycleAmplitudesStudy
     frequency_response: FrequencyResponseStudy
+    bogie_modes: BogieModesStudy
+    curve_entry: CurveEntryStudy
 
 
 def named_uniquely(variants: tuple[AbsorberVariant, ...]) -> tuple[AbsorberVariant, ...]:
@@ -249,7 +217,20 @@ class Line(Section):
     absorber: Absorber
     forced_excitation: ForcedExcitation
     absorber_variants: Variants = Field(description="absorbers of the stability maps")
+    track: Track
+    bogie: Bogie
+    contact_geometry: ContactGeometry
     study: Study
+
+    @model_validator(mode="after")
+    def _bogie_fits_the_curve(self) -> Self:
+        chord = self.bogie.half_wheelbase / self.track.radius
+        if chord > GREATEST_CHORD_ANGLE:
+            raise ValueError(
+                f"bogie.half_wheelbase/track.radius = {chord:.3g} must be at most "
+                f"{GREATEST_CHORD_ANGLE:g} (small angles; the contact tables end beyond)"
+            )
+        return self
 
     @model_validator(mode="after")
     def _absorber_lighter_than_axle(self) -> Self:
@@ -346,6 +327,10 @@ class Numerics(Section):
     cycle_amplitudes: CycleAmplitudesNumerics
     absorber_tuning: AbsorberTuningNumerics
     frequency_response: FrequencyResponseNumerics
+    contact_geometry: ContactGeometryNumerics
+    bogie: BogieNumerics
+    bogie_modes: BogieModesNumerics
+    curve_entry: CurveEntryNumerics
 
 
 LineName = Annotated[

@@ -1,0 +1,85 @@
+"""Self-excitation of the bogie over the friction decrease, and the map of its absorber."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tramdva import figures, job, results
+
+STYLE = Path(__file__).parent / "tramdva.mplstyle"
+LOOKS = (
+    {"color": "C1", "linewidth": 1.4},
+    {"color": "0.55", "linewidth": 2.0},
+    {"color": "C2", "linewidth": 1.2, "linestyle": "--"},
+)
+SOUGHT = 30.0  # Hz, oscillations above this count; as in the map
+
+
+def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
+    """Draw the figure from the modes of the bogie."""
+    with figures.style(STYLE):
+        figure = draw(results.read(bogie_modes), cfg["creep_force"]["B"])
+        figures.save(figure, pdf, png, f"Stability of the bogie: {cfg['label']}")
+
+
+def draw(modes: dict[str, np.ndarray], operating_B: float) -> Figure:
+    """Draw growth rate over B, and growth rate over stiffness and damping of the absorber."""
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 84)
+    left, right = figure.subplots(1, 2)
+    draw_growth(left, modes, operating_B)
+    draw_map(figure, right, modes)
+    for axes, name in ((left, "a"), (right, "b")):
+        figures.letter(axes, name)
+    return figure
+
+
+def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) -> None:
+    """Draw the largest growth rate of each absorber over the friction decrease."""
+    sought = modes["frequency"] > SOUGHT
+    growth = np.where(sought, modes["growth_rate"], -np.inf).max(axis=2)
+    for row, name in enumerate(modes["absorber"]):
+        words = figures.design_name(str(name)).replace("Table 2", "Table 3")
+        critical = modes["critical_friction_decrease"][row]
+        if np.isfinite(critical):
+            words += f": unstable from {critical:.2f} s/m"
+        axes.plot(modes["friction_decrease"], growth[row], label=words, **LOOKS[row])
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    axes.axvline(operating_B, color="0.6", linewidth=0.6, linestyle=":")
+    axes.set(
+        xlabel="friction decrease B (s/m)", ylabel="growth rate (1/s)",
+        xlim=(0.0, modes["friction_decrease"][-1]), ylim=(-30.0, 15.0),
+    )  # fmt: skip
+    axes.legend(loc="upper left", bbox_to_anchor=(0.28, 0.42), fontsize="x-small")
+
+
+def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
+    """Draw the growth rate over stiffness and damping of the absorber; stable is grey."""
+    stiffness, growth = modes["map_c_T"] / 1e5, modes["map_growth_rate"]
+    levels = np.arange(-18.0, 1.1, 1.0)
+    image = axes.contourf(
+        stiffness, modes["map_d_T"], growth, levels, cmap=figures.SPREAD, extend="both"
+    )
+    figure.colorbar(image, ax=axes, label="growth rate (1/s)")
+    axes.contour(stiffness, modes["map_d_T"], growth, [0.0], colors=figures.ONSET)
+    for row, marker in ((1, "s"), (2, "o")):
+        axes.plot(
+            modes["c_T"][row] / 1e5, modes["d_T"][row], marker, markerfacecolor="white",
+            markeredgecolor="black", label=figures.design_name(str(modes["absorber"][row])).replace(
+                "Table 2", "Table 3"
+            ),
+        )  # fmt: skip
+    axes.set(xlabel="stiffness (10⁵ N m/rad)", ylabel="damping (N m s/rad)")
+    axes.legend(loc="upper right")
+
+
+if __name__ == "__main__":
+    with job.logging_to(snakemake.log[0]):
+        main(
+            pdf=snakemake.output.pdf,
+            png=snakemake.output.png,
+            code=snakemake.params.code,
+            cfg=snakemake.params.cfg,
+            bogie_modes=snakemake.input.bogie_modes,
+        )

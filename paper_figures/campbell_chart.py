@@ -1,0 +1,82 @@
+"""Orders of a polygonal wheel over the speed, with the modes of the bogie."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tramdva import figures, job, results
+
+STYLE = Path(__file__).parent / "tramdva.mplstyle"
+SHOWN = {
+    "first_bending_front": "first bending",
+    "second_bending_front": "second bending",
+    "third_bending_front": "third bending",
+    "resilient_wheel_front": "resilient wheel",
+}
+ORDERS = (5, 10, 15, 20, 26, 30, 40)
+TOP = 160.0  # Hz
+KMH = 3.6
+
+
+def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
+    """Draw the figure from the modes of the bogie."""
+    with figures.style(STYLE):
+        figure = draw(
+            results.read(bogie_modes), cfg["bogie"]["wheel"]["radius"], cfg["track"]["speed"]
+        )
+        figures.save(figure, pdf, png, f"Orders over speed: {cfg['label']}")
+
+
+def draw(modes: dict[str, np.ndarray], wheel_radius: float, speed: float) -> Figure:
+    """Draw frequency over speed: rays of the orders, level lines of the modes in the curve."""
+    figure = figures.canvas(figures.SINGLE_COLUMN, 84)
+    axes = figure.subplots()
+    fastest = 30.0 / KMH
+    for order in ORDERS:
+        draw_order(axes, order, wheel_radius, fastest)
+    for name, words in SHOWN.items():
+        found = np.flatnonzero(modes["shape_mode"] == name)
+        if found.size:
+            draw_level(axes, words, float(modes["shape_frequency"][found[0]]), fastest)
+    axes.axvline(speed * KMH, color="0.5", linestyle=":", linewidth=0.8)
+    axes.set(
+        xlabel="speed (km/h)", ylabel="frequency (Hz)", xlim=(0.0, fastest * KMH), ylim=(0.0, TOP)
+    )
+    return figure
+
+
+def draw_order(axes: Axes, order: int, wheel_radius: float, fastest: float) -> None:
+    """Draw the frequency at which the waves of an order pass, eq. (18)."""
+    frequency = order * fastest / (2.0 * np.pi * wheel_radius)
+    axes.plot([0.0, fastest * KMH], [0.0, frequency], color="0.7", linewidth=0.7)
+    inside = min(1.0, TOP / frequency)
+    axes.text(
+        0.97 * inside * fastest * KMH, 0.97 * inside * frequency, f"{order}", fontsize="small",
+        ha="center", va="center", zorder=4,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+    )  # fmt: skip
+
+
+def draw_level(axes: Axes, words: str, frequency: float, fastest: float) -> None:
+    """Draw a mode of the front axle as a level line."""
+    axes.plot([0.0, fastest * KMH], [frequency, frequency], color="C1", linewidth=1.2)
+    axes.annotate(
+        f"{words}, {frequency:.0f} Hz",
+        (0.3, frequency),
+        (0, 2),
+        textcoords="offset points",
+        fontsize="small",
+    )
+
+
+if __name__ == "__main__":
+    with job.logging_to(snakemake.log[0]):
+        main(
+            pdf=snakemake.output.pdf,
+            png=snakemake.output.png,
+            code=snakemake.params.code,
+            cfg=snakemake.params.cfg,
+            bogie_modes=snakemake.input.bogie_modes,
+        )

@@ -1,0 +1,220 @@
+"""Curving equilibrium and linearisation of the vehicle on the track.
+
+The state is x = (q without the angles of the hubs, v): those angles are cyclic, the hubs turn at a
+constant rate in equilibrium.
+"""
+
+import logging
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from tramdva.bogie import running, track
+from tramdva.bogie.vehicle import WHEELS, Vehicle, frame_loads
+from tramdva.contact import patch
+
+logger = logging.getLogger(__name__)
+
+HUBS = 4
+STATUS = ("converged", "not_converged", "wheel_lifted", "outside_profile")
+# Per step of the continuation, in the units of `vehicle.LOCAL`.
+_LARGEST_CHANGE = np.tile([2e-4, 5e-5, 4e-3, 4e-3, 0.02, 0.05, 0.05, 0.2, 0.2, 0.2], 4)
+
+
+class System(NamedTuple):
+    """Vehicle with contacts in one state of the track.
+
+    vehicle : Vehicle; contacts : running.Contacts
+    curvatures : (3,) in 1/m per frame; load : (n,) generalised loads
+    """
+
+    vehicle: Vehicle
+    contacts: running.Contacts
+    curvatures: np.ndarray
+    load: np.ndarray
+
+    @property
+    def size(self) -> int:
+        """Number of positions in the state, the angles of the hubs left out."""
+        return len(self.vehicle.names) - HUBS
+
+    def local(self, state: np.ndarray) -> np.ndarray:
+        """Local variables (40,) of the contacts."""
+        k, vehicle = self.size, self.vehicle
+        return vehicle.local_position[:, :k] @ state[:k] + vehicle.local_velocity @ state[k:]
+
+    def forces(self, state: np.ndarray) -> np.ndarray:
+        """Sum of all generalised forces (n,) except inertia."""
+        k, vehicle = self.size, self.vehicle
+        contact, _ = running.contact_forces(self.contacts, self.curvatures, self.local(state))
+        return (
+            self.load
+            + vehicle.force_input @ contact
+            - vehicle.stiffness[:, :k] @ state[:k]
+            - (vehicle.damping + vehicle.gyroscopic) @ state[k:]
+        )
+
+
+def system_on(
+    vehicle: Vehicle,
+    contacts: running.Contacts,
+    line: track.TrackLine,
+    place: float,
+    half_wheelbase: float,
+    gravity: float,
+) -> System:
+    """System with the bogie's centre at `place` (m) of a line where the curvature is constant."""
+    frames = track.frame_motion(line, place, half_wheelbase, contacts.places.speed)
+    return System(vehicle, contacts, frames.curvature, frame_loads(vehicle, frames, gravity))
+
+
+class Linearisation(NamedTuple):
+    """State matrix A of x' = A (x - x_0) and its parts.
+
+    matrix : (2 n - 4, 2 n - 4); contact_jacobian : (24, 40)
+    output : (40, 2 n - 4), local variables of the contacts from the state
+    input : (2 n - 4, n), state derivative from generalised forces
+    """
+
+    matrix: np.ndarray
+    contact_jacobian: np.ndarray
+    output: np.ndarray
+    input: np.ndarray
+
+
+def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Linearisation:
+    """Linearise about a state; the contact by central differences with scaled steps.
+
+    Notes
+    -----
+    With positions p (hub angles left out), velocities v and the contact Jacobian J = [J_p J_v]::
+
+        A = [        0            E        ]    E = rows of the identity without the hubs
+            [ M^-1 (J_p - K)  M^-1 (J_v - D - G) ]
+    """
+    k, vehicle = system.size, system.vehicle
+    n = k + HUBS
+    output = np.hstack([vehicle.local_position[:, :k], vehicle.local_velocity])
+    jacobian = running.contact_jacobian(
+        system.contacts, system.curvatures, system.local(state), step_scale
+    )
+    force = vehicle.force_input @ jacobian @ output
+    force[:, :k] -= vehicle.stiffness[:, :k]
+    force[:, k:] -= vehicle.damping + vehicle.gyroscopic
+    inverse = np.linalg.inv(vehicle.mass)
+    matrix = np.zeros((k + n, k + n))
+    matrix[:k, k : 2 * k] = np.eye(k)
+    matrix[k:] = inverse @ force
+    return Linearisation(matrix, jacobian, output, np.vstack([np.zeros((k, n)), inverse]))
+
+
+class Equilibrium(NamedTuple):
+    """Steady running: state, largest residual as an acceleration, contact results, status.
+
+    results : (4, zones, patch.RESULTS)
+    status : one of `STATUS`
+    """
+
+    state: np.ndarray
+    residual: float
+    results: np.ndarray
+    status: str
+
+
+def equilibrium(
+    system: System, start: np.ndarray, tolerance: float = 1e-9, max_iterations: int = 400
+) -> Equilibrium:
+    """Steady running from a start on the same or another track.
+
+    Parameters
+    ----------
+    system : System
+    start : (2 n - 4,) state, as from `resting_start` or another equilibrium
+    tolerance : largest acceleration that counts as zero, m/s^2 or rad/s^2
+    max_iterations : of the implicit steps
+
+    Notes
+    -----
+    Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998)): linearly
+    implicit Euler steps of the equations of motion. Their length is such that no local variable of
+    a contact changes by much more than its entry in `_LARGEST_CHANGE`: the first steps follow the
+    vehicle into the curve, the last, of endless length, are Newton's.
+    """
+    state, length, mass = start.copy(), 1e-3, lu_factor(system.vehicle.mass)
+    rate = _rate(system, state, mass)
+    change = np.inf
+    for _ in range(max_iterations):
+        if change < 1.0 and length > 1e6 and _unbalanced(rate) < tolerance:
+            break
+        linear = linearise(system, state)
+        step = np.linalg.solve(np.eye(state.size) / length - linear.matrix, rate)
+        trial_rate = _rate(system, state + step, mass)
+        change = float(np.max(np.abs(linear.output @ step) / _LARGEST_CHANGE))
+        if change > 3.0 or not np.isfinite(trial_rate).all():
+            length *= 0.25
+            continue
+        length *= min(max(1.0 / max(change, 1e-300), 0.5), 5.0)
+        state, rate = state + step, trial_rate
+    residual = _unbalanced(rate)
+    _, results = running.contact_forces(system.contacts, system.curvatures, system.local(state))
+    status = _status(results, residual, tolerance)
+    logger.info("equilibrium: %s, residual %.1e", status, residual)
+    return Equilibrium(state, residual, results, status)
+
+
+def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:
+    k = system.size
+    return np.concatenate([state[k : 2 * k], lu_solve(mass, system.forces(state))])
+
+
+def _unbalanced(rate: np.ndarray) -> float:
+    return float(np.abs(rate).max())
+
+
+def _status(results: np.ndarray, residual: float, tolerance: float) -> str:
+    if (results[..., patch.STATUS] == patch.INVALID).any():
+        return "outside_profile"
+    if (results[..., patch.NORMAL_FORCE].sum(axis=1) <= 0.0).any():
+        return "wheel_lifted"
+    # Rounding in the forces, 1e5 N over 1 kg, ends near 1e-10.
+    return "converged" if residual < 10.0 * tolerance else "not_converged"
+
+
+def resting_start(system: System, penetration: float = 1e-4) -> np.ndarray:
+    """State (2 n - 4,) of the undeformed vehicle, lowered by a penetration in m."""
+    state = np.zeros(2 * system.size + HUBS)
+    state[: system.size] = -penetration * system.vehicle.rise[: system.size]
+    return state
+
+
+def wheel_loads(equilibrium_: Equilibrium) -> dict[str, float]:
+    """Vertical force of the rail on each wheel in N."""
+    results = equilibrium_.results
+    angle = results[..., patch.CONTACT_ANGLE]
+    normal, lateral = results[..., patch.NORMAL_FORCE], results[..., patch.LATERAL_FORCE]
+    side = np.array([-1.0, 1.0, -1.0, 1.0])[:, None]
+    vertical = (normal * np.cos(angle) + side * lateral * np.sin(angle)).sum(axis=1)
+    return dict(zip(WHEELS, map(float, vertical), strict=True))
+
+
+def angle_of_attack(system: System, equilibrium_: Equilibrium) -> np.ndarray:
+    """Yaw angle (2,) of front and rear axle against the track, rad; heading outwards positive."""
+    k, motion = system.size, system.vehicle.motion_of
+    return np.array(
+        [-motion[f"{axle}_axle"][5, :k] @ equilibrium_.state[:k] for axle in ("front", "rear")]
+    )
+
+
+def enter_curve(systems: list[System], start: np.ndarray, tolerance: float = 1e-9) -> Equilibrium:
+    """Equilibrium on the last of several systems, followed through them from a start.
+
+    Parameters
+    ----------
+    systems : the vehicle on tracks of growing curvature, from straight to the curve wanted
+    start : as in `equilibrium`
+    """
+    state = start
+    for system in systems[:-1]:
+        state = equilibrium(system, state, 1e-3, 60).state
+    return equilibrium(systems[-1], state, tolerance)

@@ -1,0 +1,369 @@
+"""Time integration of the vehicle on the track: an exponential integrator, compiled end to end.
+
+The vehicle linearised about an equilibrium, contacts included, is integrated exactly in its modal
+coordinates; what the contacts do beyond their linearisation is the forcing of an exponential
+Runge-Kutta scheme of fourth order (S. Krogstad, J. Comput. Phys. 203 (2005) 72-88). A small
+oscillation about the equilibrium therefore grows or decays without numerical damping at any step.
+
+Steps are the interval of the output or a half, quarter, ... of it: as few as keep the difference
+between the scheme and one of second order below a tolerance. Mostly the contacts cost time.
+"""
+
+from math import factorial
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from tramdva.bogie import running
+from tramdva.bogie.curving import Equilibrium, System, linearise
+from tramdva.contact import patch
+
+FAST = {"contract", "reassoc", "nsz"}
+LEVELS = 9  # steps of 1, 1/2, ... 1/256 of the output interval
+STATUS = ("completed", "contact_lost", "outside_profile", "not_finite")
+COMPLETED, CONTACT_LOST, OUTSIDE_PROFILE, NOT_FINITE = range(len(STATUS))
+RECORDED = (
+    patch.NORMAL_FORCE, patch.CONTACT_ANGLE, patch.LONGITUDINAL_CREEPAGE, patch.LATERAL_CREEPAGE,
+    patch.SPIN_CREEPAGE, patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL,
+    patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY,
+)  # fmt: skip
+
+
+class ModalBasis(NamedTuple):
+    """Vehicle near an equilibrium in modal coordinates: m real or pairs of conjugate modes.
+
+    Modal states are packed: m real parts, then m imaginary parts.
+
+    eigenvalue : (m,) complex, 1/s
+    state : (nx,) of the equilibrium; to_modal : (m, nx); to_state : (nx, m), real part counts
+    load : (m, n) complex, modal forcing from generalised forces
+    output : (2 m, 40), local variables of the contacts; forcing : (24, 2 m), from their forces
+    local, force, jacobian : (40,), (24,), (24, 40) at the equilibrium
+    """
+
+    eigenvalue: np.ndarray
+    state: np.ndarray
+    to_modal: np.ndarray
+    to_state: np.ndarray
+    load: np.ndarray
+    output: np.ndarray
+    forcing: np.ndarray
+    local: np.ndarray
+    force: np.ndarray
+    jacobian: np.ndarray
+
+
+def modal_basis(system: System, equilibrium: Equilibrium) -> ModalBasis:
+    """Modal coordinates about an equilibrium, scaled to velocities of at most 1 m/s or rad/s."""
+    linear = linearise(system, equilibrium.state)
+    values, vectors = np.linalg.eig(linear.matrix)
+    vectors = vectors / np.abs(vectors[system.size :]).max(axis=0)
+    inverse = np.linalg.inv(vectors)
+    kept = values.imag >= 0.0
+    values, left = values[kept], inverse[kept]
+    right = vectors[:, kept] * np.where(values.imag > 0.0, 2.0, 1.0)
+    output = linear.output @ right
+    load = left @ linear.input
+    forcing = load @ system.vehicle.force_input
+    force, _ = running.contact_forces(
+        system.contacts, system.curvatures, system.local(equilibrium.state)
+    )
+    return ModalBasis(
+        values,
+        equilibrium.state,
+        left,
+        right,
+        load,
+        np.ascontiguousarray(np.vstack([output.real.T, -output.imag.T])),
+        np.ascontiguousarray(np.hstack([forcing.real.T, forcing.imag.T])),
+        system.local(equilibrium.state),
+        force,
+        linear.contact_jacobian,
+    )
+
+
+def packed(z: np.ndarray) -> np.ndarray:
+    """Modal state (m,) complex as (2 m,) real."""
+    return np.concatenate([z.real, z.imag])
+
+
+def modal_state(basis: ModalBasis, state: np.ndarray) -> np.ndarray:
+    """Packed modal state of a state of the vehicle."""
+    return packed(basis.to_modal @ (state - basis.state))
+
+
+def vehicle_state(basis: ModalBasis, modal: np.ndarray) -> np.ndarray:
+    """State of the vehicle of a packed modal state."""
+    m = basis.eigenvalue.size
+    return basis.state + (basis.to_state @ (modal[:m] + 1j * modal[m:])).real
+
+
+# Coefficients of the scheme: half and whole propagators, weights of the forcing.
+HALF, HALF_FIRST, HALF_SECOND, WHOLE, FIRST, SECOND, THIRD = range(7)
+
+
+def step_table(eigenvalue: np.ndarray, interval: float) -> np.ndarray:
+    """Coefficients (LEVELS, 7, 2, m) of the scheme for steps interval / 2^level.
+
+    Notes
+    -----
+    With x = h lambda and phi_1 = (e^x - 1) / x, phi_k+1 = (phi_k - 1 / k!) / x: exp(x/2),
+    h/2 phi_1(x/2), h phi_2(x/2), exp(x), h phi_1, h phi_2, h (4 phi_3 - 2 phi_2).
+    """
+    out = np.empty((LEVELS, 7, 2, eigenvalue.size))
+    for level in range(LEVELS):
+        h = interval / 2**level
+        x = h * eigenvalue.astype(complex)
+        half, whole = _phi(0.5 * x), _phi(x)
+        coefficients = (
+            np.exp(0.5 * x),
+            0.5 * h * half[0],
+            h * half[1],
+            np.exp(x),
+            h * whole[0],
+            h * whole[1],
+            h * (4.0 * whole[2] - 2.0 * whole[1]),
+        )
+        for k, value in enumerate(coefficients):
+            out[level, k] = value.real, value.imag
+    return out
+
+
+def _phi(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """phi_1, phi_2, phi_3 of complex arguments; phi_3 by its series where |x| < 0.5."""
+    small = np.abs(x) < 0.5
+    safe = np.where(small, 1.0, x)
+    phi_1 = np.expm1(safe) / safe
+    phi_2 = (phi_1 - 1.0) / safe
+    phi_3 = (phi_2 - 0.5) / safe
+    series = sum(x**k / factorial(k + 3) for k in range(14))
+    phi_3 = np.where(small, series, phi_3)
+    phi_2 = np.where(small, 0.5 + x * phi_3, phi_2)
+    return np.where(small, 1.0 + x * phi_2, phi_1), phi_2, phi_3
+
+
+class Excitation(NamedTuple):
+    """Harmonic excitation at angular frequency (rad/s): cos(angular_frequency t + phase).
+
+    amplitude, phase : (4,) radius deviation of the wheels, m and rad
+    force : (2 m,) packed modal forcing, per second
+    """
+
+    angular_frequency: float
+    amplitude: np.ndarray
+    phase: np.ndarray
+    force: np.ndarray
+
+
+def no_excitation(basis: ModalBasis) -> Excitation:
+    """Round wheels and no force."""
+    return Excitation(0.0, np.zeros(4), np.zeros(4), np.zeros(2 * basis.eigenvalue.size))
+
+
+class Passage(NamedTuple):
+    """Loads of the frames while they move relative to each other, over a share u of 0 .. 1.
+
+    load : (4, 2 m) packed modal forcing beyond the equilibrium's, coefficients of u^0 .. u^3
+    curvature : (2, 3) in 1/m, coefficients of u^0 and u^1 per frame
+    """
+
+    load: np.ndarray
+    curvature: np.ndarray
+
+
+def steady(basis: ModalBasis, curvatures: np.ndarray) -> Passage:
+    """Passage of a track that does not change."""
+    load = np.zeros((4, 2 * basis.eigenvalue.size))
+    return Passage(load, np.vstack([curvatures, np.zeros(3)]))
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def _locals_of(basis, z, local):
+    """Local variables of the contacts of a packed modal state."""
+    local[:] = basis.local
+    for k in range(z.size):
+        amount = z[k]
+        row = basis.output[k]
+        for j in range(local.size):
+            local[j] += amount * row[j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def _add_remainder(basis, local, force, forcing):
+    """Add the modal forcing by contact forces beyond their linearisation."""
+    for i in range(force.size):
+        wheel = i // running.WHEEL_FORCES
+        start = running.LOCALS * wheel
+        remainder = force[i] - basis.force[i]
+        for j in range(start, start + running.LOCALS):
+            remainder -= basis.jacobian[i, j] * (local[j] - basis.local[j])
+        row = basis.forcing[i]
+        for k in range(forcing.size):
+            forcing[k] += remainder * row[k]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _forcing(basis, contacts, passage, excitation, z, time, share, work, forcing):
+    """Modal forcing (2 m,) beyond the linearised vehicle at a time (s), share of the passage."""
+    local, force, curvatures, deviation, rate, scratch, results = work
+    _locals_of(basis, z, local)
+    turn = excitation.angular_frequency
+    for w in range(4):
+        angle = turn * time + excitation.phase[w]
+        deviation[w] = excitation.amplitude[w] * np.cos(angle)
+        rate[w] = -turn * excitation.amplitude[w] * np.sin(angle)
+    for f in range(3):
+        curvatures[f] = passage.curvature[0, f] + share * passage.curvature[1, f]
+    running.all_wheel_forces(contacts, curvatures, local, deviation, rate, scratch, results, force)
+    cosine = np.cos(turn * time)
+    c = passage.load
+    for k in range(z.size):
+        forcing[k] = c[0, k] + share * (c[1, k] + share * (c[2, k] + share * c[3, k]))
+        forcing[k] += cosine * excitation.force[k]
+    _add_remainder(basis, local, force, forcing)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def _turned(coefficient, z, out, add):
+    """Product of a diagonal complex matrix (2, m) and a packed state; added to `out` if `add`."""
+    m = coefficient.shape[1]
+    for k in range(m):
+        real = coefficient[0, k] * z[k] - coefficient[1, k] * z[k + m]
+        imag = coefficient[0, k] * z[k + m] + coefficient[1, k] * z[k]
+        if add:
+            out[k] += real
+            out[k + m] += imag
+        else:
+            out[k] = real
+            out[k + m] = imag
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _step(basis, contacts, passage, excitation, table, z, time, share, h, rise, work, arrays):
+    """One step of length h; z is advanced. Returns the difference to the second order.
+
+    Notes
+    -----
+    With forcings g_1 at z, g_2 and g_3 at the middle, g_4 at the end::
+
+        u_2 = HALF z + HALF_FIRST g_1,           u_3 = u_2 + HALF_SECOND (g_2 - g_1)
+        u_4 = WHOLE z + FIRST g_1 + 2 SECOND (g_3 - g_1)
+        z   = WHOLE z + FIRST g_1 + SECOND (g_4 - g_1) + THIRD (g_1 - g_2 - g_3 + g_4)
+    """
+    g_1, g_2, g_3, g_4, u, change = arrays
+    _forcing(basis, contacts, passage, excitation, z, time, share, work, g_1)
+    _turned(table[HALF], z, u, False)
+    _turned(table[HALF_FIRST], g_1, u, True)
+    middle = share + 0.5 * rise
+    _forcing(basis, contacts, passage, excitation, u, time + 0.5 * h, middle, work, g_2)
+    for k in range(z.size):
+        change[k] = g_2[k] - g_1[k]
+    _turned(table[HALF_SECOND], change, u, True)
+    _forcing(basis, contacts, passage, excitation, u, time + 0.5 * h, middle, work, g_3)
+    _turned(table[WHOLE], z, u, False)
+    _turned(table[FIRST], g_1, u, True)
+    z[:] = u
+    for k in range(z.size):
+        change[k] = 2.0 * (g_3[k] - g_1[k])
+    _turned(table[SECOND], change, u, True)
+    _forcing(basis, contacts, passage, excitation, u, time + h, share + rise, work, g_4)
+    for k in range(z.size):
+        change[k] = g_4[k] - g_1[k]
+        u[k] = g_1[k] - g_2[k] - g_3[k] + g_4[k]
+    _turned(table[SECOND], change, z, True)
+    _turned(table[THIRD], u, change, False)
+    error = 0.0
+    for k in range(z.size):
+        z[k] += change[k]
+        error += change[k] * change[k]
+    return np.sqrt(error)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _worst(results):
+    """Status of the contacts in the last evaluation."""
+    worst = COMPLETED
+    for wheel in range(results.shape[0]):
+        load = 0.0
+        for zone in range(results.shape[1]):
+            load += results[wheel, zone, patch.NORMAL_FORCE]
+            if results[wheel, zone, patch.STATUS] == patch.INVALID:
+                return OUTSIDE_PROFILE
+        if load <= 0.0:
+            worst = CONTACT_LOST
+    return worst
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def run(
+    basis, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
+    locals_out, results_out, columns, every,
+):  # fmt: skip
+    """Integrate over `locals_out.shape[0] * every` intervals; z is advanced.
+
+    Parameters
+    ----------
+    basis, contacts, passage, excitation : see there
+    tables : from `step_table`; interval : s
+    tolerance : largest difference to the second order per interval, m/s (norm over the modes)
+    level : first level of the steps
+    time : s at the start
+    z : (2 m,) packed modal state
+    work : from `workspace`
+    locals_out : (k, 40); results_out : (k, 4, zones, columns), receive the output
+    columns : indices of `patch` results to record; every : intervals per output
+
+    Returns
+    -------
+    level, status, outputs written, number of evaluations of the contacts.
+    """
+    m2 = z.size
+    arrays = (
+        np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2),
+    )  # fmt: skip
+    saved = np.empty(m2)
+    total = locals_out.shape[0] * every
+    evaluations, status = 0, COMPLETED
+    results = work[6]
+    for i in range(total):
+        saved[:] = z
+        while True:
+            steps = 1 << level
+            h, rise = interval / steps, 1.0 / (total * steps)
+            error = 0.0
+            for s in range(steps):
+                error += _step(
+                    basis, contacts, passage, excitation, tables[level], z,
+                    time + (i + s / steps) * interval, i / total + s * rise, h, rise, work, arrays,
+                )  # fmt: skip
+            evaluations += 4 * steps
+            if error <= tolerance or level == LEVELS - 1:
+                break
+            level += 1
+            z[:] = saved
+        if not np.isfinite(error):
+            return level, NOT_FINITE, i // every, evaluations
+        now = _worst(results)
+        if now == OUTSIDE_PROFILE:
+            return level, OUTSIDE_PROFILE, i // every, evaluations
+        status = max(status, now)
+        if (i + 1) % every == 0:
+            k = i // every
+            _locals_of(basis, z, locals_out[k])
+            for wheel in range(results.shape[0]):
+                for zone in range(results.shape[1]):
+                    for c in range(columns.size):
+                        results_out[k, wheel, zone, c] = results[wheel, zone, columns[c]]
+        # The difference falls with the third power of the step.
+        if level > 0 and error < 0.1 * tolerance:
+            level -= 1
+    return level, status, locals_out.shape[0], evaluations
+
+
+def workspace(contacts: running.Contacts) -> tuple:
+    """Scratch arrays for `run`."""
+    scratch, results = running.workspace(contacts)
+    return (
+        np.empty(40), np.empty(24), np.empty(3), np.empty(4), np.empty(4), scratch, results,
+    )  # fmt: skip

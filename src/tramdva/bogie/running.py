@@ -1,0 +1,249 @@
+"""Vehicle on the track: the forces of the four wheels in the contact, compiled.
+
+A wheel sees ten local variables (`vehicle.LOCAL`): position and angles of its rim relative to the
+rail (m, rad) and the rates of its six motions relative to the frame of its axle (m/s, rad/s). The
+contact answers with six generalised forces (`vehicle.FORCES`, N and N m). Zones of the profile
+(tread and flange) act at once.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from tramdva.bogie.vehicle import AXLE_OF_WHEEL, FORCES, LOCAL, SIDE
+from tramdva.contact import geometry, patch, profiles
+
+LOCALS, WHEEL_FORCES = len(LOCAL), len(FORCES)
+# Range of the contact tables: m of lateral shift, rad of roll and yaw.
+SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
+
+
+class WheelPlaces(NamedTuple):
+    """Where the wheels are, and how they run; plain arrays and numbers.
+
+    side : (4,); axle : (4,) frame of the wheel's axle in `track.FRAMES`
+    lateral_position : (4,) m, wheel centres from the track centre
+    tape_circle : m outboard of the wheel centre; rail : m, top of the rail outside the tape circle
+    speed : m/s; spin_rate : rad/s of hub and rim at rest in the coordinates
+    """
+
+    side: np.ndarray
+    axle: np.ndarray
+    lateral_position: np.ndarray
+    tape_circle: float
+    rail: float
+    speed: float
+    spin_rate: float
+
+
+class Contacts(NamedTuple):
+    """All that the contacts need: tables of the zones, law, places of the wheels."""
+
+    tables: tuple
+    law: patch.ContactLaw
+    places: WheelPlaces
+
+
+def wheel_places(bogie, contact_geometry, speed: float) -> WheelPlaces:
+    """Places of the wheels of a bogie."""
+    side = np.array(SIDE)
+    return WheelPlaces(
+        side,
+        np.array(AXLE_OF_WHEEL) + 1,
+        side * bogie.wheel.half_distance,
+        contact_geometry.wheel.tape_circle_offset,
+        contact_geometry.rail.lateral_position,
+        speed,
+        speed / bogie.wheel.radius,
+    )
+
+
+def zone_tables(
+    contact_geometry, wheel_radius: float, shift_step: float = 2.5e-5, yaw_nodes: int = 24
+) -> tuple:
+    """Contact tables of the zones of the parametric profiles (`bogie_parameters`).
+
+    `shift_step` in m and the number of nodes over the yaw angle: a conformal flange root, whose
+    locus is an arc of few mm that shrinks with the yaw angle, needs fine ones.
+    """
+    wheel, rail = contact_geometry.wheel, contact_geometry.rail
+    return geometry.contact_tables(
+        profiles.tram_wheel(
+            wheel.flange_root_radius,
+            wheel.flange_angle,
+            wheel.conicity,
+            wheel.tread_inner,
+            wheel.tread_outer,
+        ),
+        profiles.grooved_rail(
+            rail.crown_radius, rail.corner_radius, rail.corner_start,
+            field_half_width=rail.field_half_width,
+        ),
+        wheel_radius,
+        shift_range=(-rail.lateral_position - SHIFT_RANGE, -rail.lateral_position + SHIFT_RANGE),
+        roll_limit=ROLL_RANGE,
+        yaw_limit=YAW_RANGE,
+        gap_scale=contact_geometry.gap_scale,
+        shift_step=shift_step,
+        yaw_nodes=yaw_nodes,
+    )  # fmt: skip
+
+
+# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw).
+PLACE = patch.RESULTS
+COLUMNS = PLACE + 4
+# A radius deviation of this size (m) is allowed for.
+_DEVIATION = 1e-4
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _still_apart(result, y, z, roll, yaw):
+    """Whether a zone that was apart cannot touch yet.
+
+    The gap is a distance: it changes by no more than the wheel moves. Its slope in the yaw angle,
+    R tan(delta)^2 tan(yaw), stays below 0.3 m/rad, that in the roll angle below the radius.
+    """
+    if result[patch.STATUS] != patch.NO_CONTACT or result[patch.PENETRATION] >= 0.0:
+        return False
+    moved = abs(y - result[PLACE]) + abs(z - result[PLACE + 1])
+    moved += 0.6 * abs(roll - result[PLACE + 2]) + 0.3 * abs(yaw - result[PLACE + 3])
+    return moved + _DEVIATION + result[patch.PENETRATION] < 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _remember(result, y, z, roll, yaw):
+    """Note where a zone was evaluated."""
+    result[PLACE] = y
+    result[PLACE + 1] = z
+    result[PLACE + 2] = roll
+    result[PLACE + 3] = yaw
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wheel_forces(
+    contacts, wheel, curvature, local, deviation, deviation_rate, scratch, results, force
+):
+    """Generalised forces of the rail on one wheel.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    wheel : index in `vehicle.WHEELS`
+    curvature : 1/m at the axle's frame
+    local : (10,) local variables of the wheel
+    deviation, deviation_rate : m and m/s, radius deviation at the contact, crest positive
+    scratch : (rows, work) of `patch.contact_workspace`
+    results : (zones, COLUMNS), receives the results of each zone
+    force : (6,), receives the forces
+
+    Notes
+    -----
+    The spin turns about the wheel's own axis (-yaw, 1, roll), which moves with the rim.
+    """
+    places = contacts.places
+    side = places.side[wheel]
+    arm = side * places.tape_circle
+    y, z, roll, yaw = local[0], local[1], local[2], local[3]
+    speed = places.speed
+    turning = speed * curvature
+    spin = places.spin_rate + local[8]
+    yaw_rate = local[9] + turning
+    velocity = (
+        speed - turning * (places.lateral_position[wheel] + y) + local[4] - yaw_rate * arm,
+        local[5],
+        local[6] + local[7] * arm,
+    )
+    rotation = (local[7] - spin * yaw, spin, yaw_rate + spin * roll)
+    position = (y - side * places.rail, z + roll * arm)
+    rolling = speed - turning * places.lateral_position[wheel]
+    force[:] = 0.0
+    for zone in range(len(contacts.tables)):
+        result = results[zone]
+        if _still_apart(result, y, z, roll, yaw):
+            continue
+        f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
+            contacts.tables[zone], contacts.law, side, position, (roll, yaw), velocity, rotation,
+            rolling, deviation, deviation_rate, scratch[0], scratch[1], result,
+        )  # fmt: skip
+        if result[patch.PENETRATION] < 0.0:
+            # A zone that does not touch may lie outside its table.
+            result[patch.STATUS] = patch.NO_CONTACT
+        _remember(result, y, z, roll, yaw)
+        force[0] += f_x
+        force[1] += f_y
+        force[2] += f_z
+        force[3] += m_x + arm * f_z
+        force[4] += m_y - yaw * m_x + roll * m_z
+        force[5] += m_z - arm * f_x
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def all_wheel_forces(
+    contacts, curvatures, local, deviation, deviation_rate, scratch, results, force
+):
+    """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
+
+    `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4,).
+    """
+    for wheel in range(4):
+        wheel_forces(
+            contacts,
+            wheel,
+            curvatures[contacts.places.axle[wheel]],
+            local[LOCALS * wheel : LOCALS * (wheel + 1)],
+            deviation[wheel],
+            deviation_rate[wheel],
+            scratch,
+            results[wheel],
+            force[WHEEL_FORCES * wheel : WHEEL_FORCES * (wheel + 1)],
+        )
+
+
+# Steps of the central differences: well below the scales of contact, above rounding.
+_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
+    """Fill jacobian (4, 6, 10) by central differences with `steps` (10,)."""
+    shifted, up, down = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.empty(WHEEL_FORCES)
+    for wheel in range(4):
+        curvature = curvatures[contacts.places.axle[wheel]]
+        for k in range(LOCALS):
+            shifted[:] = local[LOCALS * wheel : LOCALS * (wheel + 1)]
+            shifted[k] += steps[k]
+            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], up)
+            shifted[k] -= 2.0 * steps[k]
+            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], down)
+            jacobian[wheel, :, k] = (up - down) / (2.0 * steps[k])
+
+
+def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
+    """Scratch arrays and array of results for `all_wheel_forces`."""
+    rows, work, _ = patch.contact_workspace(contacts.law)
+    return (rows, work), np.zeros((4, len(contacts.tables), COLUMNS))
+
+
+def contact_forces(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Forces (24,) and results (4, zones, COLUMNS) at local variables (40,) with round wheels."""
+    scratch, results = workspace(contacts)
+    force, zero = np.empty(4 * WHEEL_FORCES), np.zeros(4)
+    all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
+    return force, results
+
+
+def contact_jacobian(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
+) -> np.ndarray:
+    """Derivatives (24, 40) of the forces in the local variables; `scale` of the steps."""
+    scratch, results = workspace(contacts)
+    blocks = np.empty((4, WHEEL_FORCES, LOCALS))
+    _difference(contacts, curvatures, local, scale * _STEPS, scratch, results, blocks)
+    jacobian = np.zeros((4 * WHEEL_FORCES, 4 * LOCALS))
+    for wheel, block in enumerate(blocks):
+        rows = slice(WHEEL_FORCES * wheel, WHEEL_FORCES * (wheel + 1))
+        jacobian[rows, LOCALS * wheel : LOCALS * (wheel + 1)] = block
+    return jacobian

@@ -1,0 +1,273 @@
+"""The stages of the bogie: from configuration and earlier results to the variables of a file."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tramdva.bogie import curve_entry as entry
+from tramdva.bogie import modes as modal
+from tramdva.bogie.curving import angle_of_attack, wheel_loads
+from tramdva.bogie.line import (
+    BogieLine,
+    Running,
+    absorber,
+    bogie_line,
+    changed,
+    run_through,
+    track_line,
+    with_friction_decrease,
+)
+from tramdva.bogie.modes import Modes
+from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS
+from tramdva.contact import patch
+
+DESIGNS = ("none", "paper", "tuned")
+ZONES = ("tread", "flange")
+CONTACT_VARIABLES = {
+    "normal_force": patch.NORMAL_FORCE,
+    "contact_angle": patch.CONTACT_ANGLE,
+    "longitudinal_creepage": patch.LONGITUDINAL_CREEPAGE,
+    "lateral_creepage": patch.LATERAL_CREEPAGE,
+    "spin_creepage": patch.SPIN_CREEPAGE,
+    "slip_velocity": patch.SLIP_VELOCITY,
+    "semi_axis_longitudinal": patch.SEMI_AXIS_LONGITUDINAL,
+    "semi_axis_lateral": patch.SEMI_AXIS_LATERAL,
+    "wheel_position": patch.WHEEL_POSITION,
+    "forward_shift": patch.FORWARD_SHIFT,
+}
+
+
+def _zone_names(count: int) -> list[str]:
+    return [ZONES[k] if k < len(ZONES) else f"zone_{k + 1}" for k in range(count)]
+
+
+def curving_equilibrium(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    absorber_tuning: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Steady curving without absorber, with the paper's and with a tuned one.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, ``creep_force`` and ``numerics``
+    contact_geometry, absorber_tuning : variables of these files
+
+    Returns
+    -------
+    Variables of ``curving_equilibrium.nc``.
+    """
+    line = bogie_line(cfg, contact_geometry)
+    none = run_through(line, cfg["numerics"]["curvature_steps"])
+    designs = _designs(line, none, cfg, absorber_tuning)
+    runs = [changed(line, absorber(line, *design), none) for design in designs]
+    results = np.array([run.equilibrium.results for run in runs])
+    touching = results[..., patch.STATUS] != patch.NO_CONTACT
+    zones = _zone_names(results.shape[2])
+    contacts = len(WHEELS) * len(zones)
+    stiffness, damping = np.array(designs).T
+    inertia = np.where(np.isnan(stiffness), np.nan, line.bogie.absorber.I_T)
+    return {
+        "absorber": np.array(DESIGNS),
+        "m_T": inertia,
+        "c_T": stiffness,
+        "d_T": damping,
+        "contact": np.array([f"{wheel}_{zone}" for wheel in WHEELS for zone in zones]),
+        "wheel": np.array(WHEELS),
+        "axle": np.array(AXLES),
+        **{
+            name: np.where(touching, results[..., column], np.nan).reshape(len(runs), contacts)
+            for name, column in CONTACT_VARIABLES.items()
+        },
+        "wheel_load": np.array([list(wheel_loads(run.equilibrium).values()) for run in runs]),
+        "straight_wheel_load": np.array(
+            [list(wheel_loads(run.straight_equilibrium).values()) for run in runs]
+        ),
+        "angle_of_attack": np.array([angle_of_attack(run.curve, run.equilibrium) for run in runs]),
+        "residual": np.array([run.equilibrium.residual for run in runs]),
+        "status": np.array([run.equilibrium.status for run in runs]),
+    }
+
+
+def _designs(line: BogieLine, none: Running, cfg, tuning) -> list[tuple[float, float]]:
+    """Stiffness and damping per design of `DESIGNS`.
+
+    The tuned one starts from the design of least receptance of the basic model or, where there is
+    none, from the paper's absorber.
+    """
+    own = line.bogie.absorber
+    usable = (tuning["design"] == "h_infinity") & (tuning["status"] == "converged")
+    start = (own.c_T, own.d_T)
+    if usable.any():
+        k = int(np.argmax(usable))
+        start = modal.carried_over(own.I_T, tuning["m_T"][k], tuning["c_T"][k], tuning["d_T"][k])
+    tuned = modal.tuned_absorber(line, none, _limits(cfg), start)
+    return [(np.nan, np.nan), (own.c_T, own.d_T), tuned]
+
+
+def _limits(cfg: Mapping[str, Any]) -> tuple[float, float]:
+    return cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"]
+
+
+def _known_runs(cfg, line: BogieLine, designs: Mapping[str, np.ndarray]) -> list[Running]:
+    """Equilibria of the designs in ``curving_equilibrium.nc``."""
+    none = run_through(line, cfg["numerics"]["curvature_steps"])
+    return [
+        changed(line, absorber(line, c_T, d_T), none)
+        for c_T, d_T in zip(designs["c_T"], designs["d_T"], strict=True)
+    ]
+
+
+def bogie_modes(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    curving_equilibrium: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Modes over the friction decrease, critical friction decrease, absorber map, mode shapes.
+
+    Returns
+    -------
+    Variables of ``bogie_modes.nc``.
+    """
+    line = bogie_line(cfg, contact_geometry)
+    runs = _known_runs(cfg, line, curving_equilibrium)
+    limits, shown = _limits(cfg), (1.0, cfg["study"]["frequency"]["max"])
+    decrease = np.linspace(0.0, cfg["study"]["B_max"], cfg["numerics"]["friction_points"])
+    names = curving_equilibrium["absorber"]
+    table = {}
+    for i, run in enumerate(runs):
+        design = absorber(line, curving_equilibrium["c_T"][i], curving_equilibrium["d_T"][i])
+        for j, B in enumerate(decrease):
+            other = changed(with_friction_decrease(line, B), design, run)
+            table[i, j] = modal.modes(other.curve, other.equilibrium.state, shown)
+    critical = [
+        modal.critical_friction_decrease(
+            line, run, absorber(line, c, d), limits, cfg["study"]["B_max"]
+        )
+        for run, c, d in zip(
+            runs, curving_equilibrium["c_T"], curving_equilibrium["d_T"], strict=True
+        )
+    ]
+    operating = [
+        modal.critical_oscillation(run.curve, run.equilibrium.state, limits) for run in runs
+    ]
+    return {
+        **{name: curving_equilibrium[name] for name in ("absorber", "m_T", "c_T", "d_T")},
+        "friction_decrease": decrease,
+        **_mode_table(table, len(names), len(decrease)),
+        "operating_growth_rate": np.array([c.growth_rate for c in operating]),
+        "operating_frequency": np.array([c.frequency for c in operating]),
+        "critical_friction_decrease": np.array(critical),
+        **_absorber_map(cfg, line, runs[0], limits),
+        **_shapes(runs[0], shown),
+        **_straight(runs[0], shown),
+    }
+
+
+def _mode_table(table: Mapping[tuple[int, int], Modes], designs: int, points: int) -> dict:
+    """Modes of all designs and friction decreases, NaN and empty names beyond the last."""
+    count = max(entry.eigenvalue.size for entry in table.values())
+    numbers = {
+        name: np.full((designs, points, count), np.nan)
+        for name in ("frequency", "damping_ratio", "growth_rate")
+    }
+    names = np.full((designs, points, count), "", dtype="U40")
+    for place, found in table.items():
+        k = found.eigenvalue.size
+        numbers["frequency"][place][:k] = found.frequency
+        numbers["damping_ratio"][place][:k] = found.damping_ratio
+        numbers["growth_rate"][place][:k] = found.eigenvalue.real
+        names[place][:k] = found.name
+    return {**numbers, "mode_name": names}
+
+
+def _absorber_map(cfg, line: BogieLine, none: Running, limits) -> dict[str, np.ndarray]:
+    study, points = cfg["study"], cfg["numerics"]["map_points"]
+    d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
+    c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
+    growth = modal.growth_with(line, none, limits)
+    return {
+        "map_d_T": d_T,
+        "map_c_T": c_T,
+        "map_growth_rate": np.array([[growth(c, d) for c in c_T] for d in d_T]),
+    }
+
+
+def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
+    """Motion of both axles in their named modes at the operating friction."""
+    found = modal.modes(none.curve, none.equilibrium.state, shown)
+    wanted = ("first_bending", "second_bending", "third_bending", "resilient_wheel")
+    names = [f"{name}_front" for name in wanted]
+    chosen = [found.name.index(name) if name in found.name else -1 for name in names]
+    positions, motion = modal.axle_points(none.curve, "front")
+    k = none.curve.size
+    shape = np.array([motion[..., :k] @ found.shape[:, i] for i in chosen])
+    shape = shape / np.abs(shape[:, :, :3]).max(axis=(1, 2), keepdims=True)
+    return {
+        "shape_mode": np.array(names),
+        "shape_frequency": found.frequency[chosen],
+        "shape_damping_ratio": found.damping_ratio[chosen],
+        "point_position": positions,
+        "shape_real": shape.real,
+        "shape_imag": shape.imag,
+        "energy_class": np.array(ENERGY_CLASSES),
+        "strain_energy_share": found.share[chosen].sum(axis=2),
+    }
+
+
+def _straight(none: Running, shown) -> dict[str, np.ndarray]:
+    found = modal.modes(none.straight, none.straight_equilibrium.state, shown)
+    return {
+        "straight_frequency": found.frequency,
+        "straight_damping_ratio": found.damping_ratio,
+        "straight_mode_name": np.array(found.name),
+    }
+
+
+def curve_entry(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    curving_equilibrium: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Ride into the curve per absorber (figure 9).
+
+    Returns
+    -------
+    Variables of ``curve_entry.nc``.
+    """
+    line, study, numerics = bogie_line(cfg, contact_geometry), cfg["study"], cfg["numerics"]
+    known = dict(zip(curving_equilibrium["absorber"], range(len(DESIGNS)), strict=True))
+    chosen = [known[name] for name in study["absorbers"]]
+    designs = {name: curving_equilibrium[name][chosen] for name in ("m_T", "c_T", "d_T")}
+    start = track_line(line, study["entry"] * line.track.speed)
+    rides = []
+    for run in _known_runs(cfg, line, designs):
+        route = entry.Route(
+            start,
+            line.track.speed,
+            line.bogie.half_wheelbase,
+            line.track.gravity,
+            (run.straight, run.curve),
+            (run.straight_equilibrium, run.equilibrium),
+        )
+        rides.append(
+            entry.ride(
+                route, study["duration"], numerics["interval"], numerics["every"],
+                numerics["tolerance"],
+            )
+        )  # fmt: skip
+    radius = line.bogie.wheel.radius
+    normal = np.array([ride.results[..., 0].sum(axis=2).T for ride in rides])
+    return {
+        "absorber": np.array(study["absorbers"]),
+        **designs,
+        "wheel": np.array(WHEELS),
+        "time": rides[0].time,
+        "contact_point_lateral_velocity": np.array(
+            [entry.contact_point_velocity(radius, ride.local) for ride in rides]
+        ),
+        "normal_force": normal,
+        "evaluations": np.array([float(ride.evaluations) for ride in rides]),
+        "status": np.array([ride.status for ride in rides]),
+    }
