@@ -1,6 +1,6 @@
 """Speed and numerical damping of the bogie's time integration, on one core.
 
-    python benchmarks/bogie.py [line]
+python benchmarks/bogie.py [line]
 """
 
 import sys

@@ -59,9 +59,7 @@ def on_springs(bogie):
     flexible = axle.flexible_axle(bogie, 1e9, 8)
     stiffness, primary = flexible.stiffness.copy(), bogie.primary
     s = primary.stiffness
-    diagonal = np.diag(
-        [s.longitudinal, s.lateral, s.vertical, 0.0, primary.pitch_stiffness, 0.0]
-    )
+    diagonal = np.diag([s.longitudinal, s.lateral, s.vertical, 0.0, primary.pitch_stiffness, 0.0])
     for side in (-1.0, 1.0):
         motion = flexible.motion(side * primary.lateral_position, primary.height)
         stiffness += motion.T @ diagonal @ motion
@@ -89,7 +87,7 @@ def test_mode_shapes_agree_with_exudyn(on_springs):
         x, y, z = np.array([end @ vectors[:, mode] for end in ends]).T
         found = np.array([y, -x, z]).T.ravel()  # the axes of the reference
         alike = abs(found @ expected) / np.linalg.norm(found) / np.linalg.norm(expected)
-        # The first two lie 0.8 % apart: a difference of 0.05 % in frequency turns them in their plane.
+        # The first two lie 0.8 % apart: 0.05 % in frequency turns them in their plane.
         assert alike > 0.995, mode
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tramdva.bogie import modes, running as contact
+from tramdva.bogie import modes
+from tramdva.bogie import running as contact
 from tramdva.bogie.curving import angle_of_attack, linearise, wheel_loads
 from tramdva.bogie.line import absorber, changed, run_through, with_friction_decrease
 from tramdva.contact import patch

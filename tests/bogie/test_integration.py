@@ -1,4 +1,4 @@
-"""The exponential integrator: against eigenvalues, another integrator, and itself at other steps."""
+"""The exponential integrator against eigenvalues, another integrator and other steps."""
 
 import numpy as np
 import pytest
@@ -61,9 +61,7 @@ def test_modal_basis_reproduces_states_and_matrix(running):
 
 
 def test_growth_rate_of_the_simulation_is_that_of_the_eigenvalue(running):
-    expected = modes.critical_oscillation(
-        running.curve, running.equilibrium.state, (30.0, 200.0)
-    )
+    expected = modes.critical_oscillation(running.curve, running.equilibrium.state, (30.0, 200.0))
     run = Run(running)
     z = run.start(2e-4, expected.frequency)
     window = round(20 / expected.frequency / 2.5e-4)

@@ -119,7 +119,7 @@ def test_cant_that_balances_the_curve_equals_the_straight_track(line):
     balanced = track.TrackLine(0.0, 0.0, 0.04, 16.0 * 0.04 / 9.81)
     frames = track.frame_motion(balanced, 100.0, 0.85, 4.0)
     load = frame_loads(vehicle, frames, 9.81)
-    lateral = vehicle.frame_motion[:, track.LATERAL::3].sum(axis=1)
+    lateral = vehicle.frame_motion[:, track.LATERAL :: 3].sum(axis=1)
     assert abs(load @ lateral) < 1e-6
 
 
@@ -138,13 +138,13 @@ def test_absorber_rotation_and_translation_load_the_axle_alike(line, running):
     with_mass = systems(line, moving, (0.0,))[0].vehicle
     without = running.straight.vehicle
     added = (
-        with_mass.rise @ with_mass.mass @ with_mass.rise - without.rise @ without.mass @ without.rise
+        with_mass.rise @ with_mass.mass @ with_mass.rise
+        - without.rise @ without.mass @ without.rise
     )
     np.testing.assert_allclose(added, 40.0, rtol=1e-9)
     run = changed(line, moving, running)
     np.testing.assert_allclose(
-        sum(wheel_loads(run.equilibrium).values())
-        - sum(wheel_loads(running.equilibrium).values()),
+        sum(wheel_loads(run.equilibrium).values()) - sum(wheel_loads(running.equilibrium).values()),
         40.0 * 9.81,
         rtol=1e-4,
     )
@@ -153,7 +153,9 @@ def test_absorber_rotation_and_translation_load_the_axle_alike(line, running):
 def test_rotating_absorbers_leave_the_equilibrium_alone(line, running):
     run = changed(line, absorber(line, 1.74e5, 300.0), running)
     for before, after in zip(
-        wheel_loads(running.equilibrium).values(), wheel_loads(run.equilibrium).values(), strict=True
+        wheel_loads(running.equilibrium).values(),
+        wheel_loads(run.equilibrium).values(),
+        strict=True,
     ):
         np.testing.assert_allclose(after, before, rtol=1e-6)
 
@@ -177,5 +179,5 @@ def test_a_wheelbase_too_long_for_the_curve_is_refused(configuration):
     values = paper.model_dump()
     values["track"]["radius"] = 15.0
     values["track"]["speed"] = 2.0
-    with pytest.raises(ValidationError, match="half_wheelbase/track.radius"):
+    with pytest.raises(ValidationError, match=r"half_wheelbase/track\.radius"):
         type(paper).model_validate(values)

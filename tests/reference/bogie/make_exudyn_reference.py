@@ -3,13 +3,14 @@
     python make_exudyn_reference.py axle_exudyn.csv        (Exudyn 1.13.6, NumPy, SciPy)
 
 The bridge is a chain of geometrically exact beams (shear-deformable; the shear stiffness is raised
-until they are Euler-Bernoulli beams). Stub and hub are rigid bodies with an offset on the end nodes,
-the primary springs six-dimensional spring-dampers to the ground. Axes of Exudyn here: X = y of the
+until they are Euler-Bernoulli beams). Stub and hub are rigid bodies off the end nodes, the primary springs six-dimensional spring-dampers to the ground. Axes of Exudyn here: X = y of the
 vehicle (left), Y = -x (backward), Z = z (up).
 """
 
 import csv
 import sys
+from itertools import pairwise
+from pathlib import Path
 
 import exudyn as exu
 import exudyn.itemInterface as items
@@ -40,7 +41,7 @@ def section(kind):
 def build(mbs):
     """Add nodes, beams, ends and springs."""
     ends = (-HALF, -MIDDLE, MIDDLE, HALF)
-    x = np.concatenate([np.linspace(a, b, ELEMENTS + 1)[:-1] for a, b in zip(ends, ends[1:])])
+    x = np.concatenate([np.linspace(a, b, ELEMENTS + 1)[:-1] for a, b in pairwise(ends)])
     x = np.append(x, HALF)
     nodes = [
         mbs.AddNode(items.NodeRigidBodyRxyz(referenceCoordinates=[p, 0, RADIUS - DROP, 0, 0, 0]))
@@ -107,7 +108,7 @@ def main(path):
     left = motion[-1, :3] + np.cross(motion[-1, 3:], arm)
     right = motion[0, :3] + np.cross(motion[0, 3:], arm * [-1.0, 1.0, 1.0])
     rows.append(["static", "0", *(f"{value:.9e}" for value in [*left, *right])])
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with Path(path).open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(["kind", "frequency_Hz", *(f"{s}_{a}" for s in "LR" for a in "XYZ")])
         table.writerows(rows)
