@@ -51,7 +51,7 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
         xlabel="friction decrease B (s/m)", ylabel="growth rate (1/s)",
         xlim=(0.0, modes["friction_decrease"][-1]), ylim=(-30.0, 15.0),
     )  # fmt: skip
-    axes.legend(loc="upper left", bbox_to_anchor=(0.28, 0.42), fontsize="x-small")
+    axes.legend(loc="lower right")
 
 
 def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:

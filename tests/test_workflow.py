@@ -110,7 +110,9 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
     """Each value changed in turn: its key and the smallest tree that holds the new value."""
     if isinstance(tree, dict):
         for name, value in tree.items():
-            for key, new in changed(value):
+            # The absorbers sit at the end of the axle: it may only become longer.
+            bent = changed(value) if name != "half_length" else [("", 1.01 * value)]
+            for key, new in bent:
                 yield f"{name}.{key}".rstrip("."), {name: new}
     elif isinstance(tree, list) and isinstance(tree[0], dict):
         for key, new in changed(tree[0]):
@@ -120,11 +122,11 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
     elif isinstance(tree, list):
         yield "", [tree[0] * 1.01, *tree[1:]]
     elif isinstance(tree, str):
-        yield "", f"{tree}x"
+        yield "", {"rotation": "translation"}.get(tree, f"{tree}x")
     elif isinstance(tree, int):
         yield "", tree + 1
     else:
-        yield "", tree * 0.99 or 1.0
+        yield "", tree * 0.99 or 1e-3
 
 
 def files_of(rule: str, line: str) -> list[str]:

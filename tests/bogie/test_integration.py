@@ -1,4 +1,4 @@
-"""The exponential integrator: against eigenvalues, another integrator, and other steps."""
+"""The exponential integrator against eigenvalues, another integrator and other steps."""
 
 import numpy as np
 import pytest

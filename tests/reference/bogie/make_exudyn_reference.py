@@ -3,9 +3,9 @@
     python make_exudyn_reference.py axle_exudyn.csv        (Exudyn 1.13.6, NumPy, SciPy)
 
 The bridge is a chain of geometrically exact beams (shear-deformable; the shear stiffness is raised
-until they are Euler-Bernoulli beams). Stub and hub are rigid bodies with an offset on the end
-nodes, the primary springs six-dimensional spring-dampers to the ground. Axes of Exudyn here:
-X = y of the vehicle (left), Y = -x (backward), Z = z (up).
+until they are Euler-Bernoulli beams). Stub and hub are rigid bodies off the end nodes, the
+primary springs six-dimensional spring-dampers to the ground. Axes of Exudyn here: X = y of the
+vehicle (left), Y = -x (backward), Z = z (up).
 """
 
 import csv
