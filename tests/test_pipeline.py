@@ -1,12 +1,15 @@
 """The whole pipeline with coarse numerics: complete, repeatable, reported."""
 
 import csv
+import json
 import re
 from pathlib import Path
 
 import pytest
 
 from tramdva import results
+from tramdva.config import load_or_exit
+from tramdva.config import stage as values_of
 from tramdva.registry import STAGES
 
 FIGURES = [
@@ -21,13 +24,15 @@ QUICK = ("--configfile", "config/quick.yaml")
 
 
 @pytest.mark.parametrize("stage", STAGES)
-def test_results_are_complete(quick_run: Path, stage: str) -> None:
+def test_results_are_complete(quick_run: Path, root: Path, stage: str) -> None:
     path = quick_run / f"results/paper/{stage}.nc"
     dataset = results.load(path)
 
     assert set(dataset.variables) == set(STAGES[stage].variables)
     assert re.fullmatch("[0-9a-f]{20}", dataset.attrs["code_hash"])
-    assert results.read_parameters(path)["curve"]["r_C"] == 25.75
+    configuration = load_or_exit(root / "config", [root / "config/quick.yaml"], {})
+    used = json.loads(json.dumps(values_of(configuration, "paper", stage)))
+    assert results.read_parameters(path) == used
 
 
 @pytest.mark.parametrize("figure", FIGURES)
