@@ -51,7 +51,7 @@ def eigenvalue_derivative(
     values, vectors = np.linalg.eig(J)
     k = int(np.argmin(np.abs(values - near)))
     psi = np.linalg.inv(vectors)[k]  # rows of the inverse are left eigenvectors, psi^T u = 1
-    total = total_jacobian_derivative(system, state, parameters, J, index)[0]
+    total = total_jacobian_derivative(system, state, parameters, J, index)
     return complex(psi @ total @ vectors[:, k])
 
 
@@ -61,12 +61,12 @@ def total_jacobian_derivative(
     parameters: np.ndarray,
     J: np.ndarray,
     index: int,
-) -> tuple[np.ndarray, np.ndarray]:
-    """J' = J_p + (dJ/dx) x' and x' = -J^-1 f_p along the branch of equilibria, (n, n) and (n,)."""
+) -> np.ndarray:
+    """J' = J_p + (dJ/dx) x' with x' = -J^-1 f_p along the branch of equilibria, (n, n)."""
     f_p = system.rhs_parameter_derivatives(state, parameters, [index])[0]
     moved = np.linalg.solve(J, -f_p)
     J_x, J_p = system.jacobian_derivatives(state, parameters, moved[None], [index])
-    return J_p[0] + J_x[0], moved
+    return J_p[0] + J_x[0]
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,7 @@ class _CriticalSystem:
         free = z[2 * n + 1 :]
         for i, index in enumerate(self.free):
             column = 2 * n + 1 + i
-            total = total_jacobian_derivative(self.system, x, p, J, index)[0]
+            total = total_jacobian_derivative(self.system, x, p, J, index)
             out[:n, column] = total @ u_R
             out[n : 2 * n, column] = total @ u_I
             h = 1e-6 * max(1.0, abs(free[i])) * np.eye(3)[i]
