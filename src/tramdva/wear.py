@@ -84,18 +84,65 @@ def _step(x, width):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def wear_coefficient(pressure, slip_velocity, chart):
-    """Dimensionless wear coefficient k for pressure in Pa and slip velocity in m/s."""
+def _share_above(value, limit, spread):
+    """Share of values within value +- spread / 2 that lie above a limit."""
+    if spread <= 0.0:
+        return 1.0 if value > limit else 0.0
+    return min(max((value - limit) / spread + 0.5, 0.0), 1.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wear_coefficient(pressure, slip_velocity, chart, pressure_spread=0.0, slip_spread=0.0):
+    """Dimensionless wear coefficient k of a cell.
+
+    Parameters
+    ----------
+    pressure : Pa; slip_velocity : m/s
+    chart : from `WearChart.as_array`
+    pressure_spread, slip_spread : range of both within the cell; the chart's steps are averaged
+        over it, so that the wear of a patch has no stairs and converges with the square of the
+        cell size
+    """
     method = int(chart[11])
     if method == CONSTANT:
         return chart[10]
     if method == CHART:
-        return chart[1 + wear_region(pressure, slip_velocity, chart)]
-    low = _step(slip_velocity - chart[5], chart[8])
-    high = _step(slip_velocity - chart[6], chart[8])
+        low = 1.0 - _share_above(-slip_velocity, -chart[5], slip_spread)  # the limit counts
+        high = _share_above(slip_velocity, chart[6], slip_spread)
+        seizure = _share_above(pressure, chart[7] * chart[0], pressure_spread)
+    else:
+        low = _step(slip_velocity - chart[5], chart[8])
+        high = _step(slip_velocity - chart[6], chart[8])
+        seizure = _step(pressure / chart[0] - chart[7], chart[9])
     k = chart[1] + low * (chart[2] - chart[1]) + high * (chart[3] - chart[2])
-    seizure = _step(pressure / chart[0] - chart[7], chart[9])
     return k + seizure * (chart[4] - k)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _slip(field, k, j):
+    return np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _neighbours(field, k, j):
+    """Indices of the cells before and behind, beside and beside; padding strips are left out."""
+    rows, strips = field.area.shape
+    right = min(j + 1, strips - 1)
+    if field.area[k, right] == 0.0:
+        right = j
+    return max(k - 1, 0), min(k + 1, rows - 1), max(j - 1, 0), right
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _spreads(field, k, j):
+    """Range of pressure (Pa) and of slip over rolling speed within a cell."""
+    before, behind, left, right = _neighbours(field, k, j)
+    along, across = max(behind - before, 1), max(right - left, 1)
+    pressure = abs(field.pressure[behind, j] - field.pressure[before, j]) / along
+    pressure += abs(field.pressure[k, right] - field.pressure[k, left]) / across
+    slip = abs(_slip(field, behind, j) - _slip(field, before, j)) / along
+    slip += abs(_slip(field, k, right) - _slip(field, k, left)) / across
+    return pressure, slip
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -119,11 +166,18 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     worn_area = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
-            if slip == 0.0 or field.length_x[k, j] == 0.0:
+            slip = _slip(field, k, j)
+            if slip == 0.0 or field.area[k, j] == 0.0:
                 continue
             pressure = field.pressure[k, j]
-            coefficient = wear_coefficient(pressure, slip * abs(rolling_speed), chart)
+            pressure_spread, slip_spread = _spreads(field, k, j)
+            coefficient = wear_coefficient(
+                pressure,
+                slip * abs(rolling_speed),
+                chart,
+                pressure_spread,
+                slip_spread * abs(rolling_speed),
+            )
             depth = coefficient * pressure * slip * field.length_x[k, j] / chart[0]
             strip_depth[j] += depth
             worn_area += depth * field.area[k, j] / field.length_x[k, j]
@@ -140,7 +194,7 @@ def region_areas(field, rolling_speed, chart, areas):
         areas[region] = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
+            slip = _slip(field, k, j)
             region = 4
             if slip > 0.0:
                 region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)

@@ -26,7 +26,7 @@ COMPLETED, CONTACT_LOST, OUTSIDE_PROFILE, NOT_FINITE = range(len(STATUS))
 RECORDED = (
     patch.NORMAL_FORCE, patch.CONTACT_ANGLE, patch.LONGITUDINAL_CREEPAGE, patch.LATERAL_CREEPAGE,
     patch.SPIN_CREEPAGE, patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL,
-    patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY,
+    patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY, patch.FRICTION,
 )  # fmt: skip
 
 
@@ -146,19 +146,28 @@ def _phi(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 class Excitation(NamedTuple):
     """Harmonic excitation at angular frequency (rad/s): cos(angular_frequency t + phase).
 
-    amplitude, phase : (4,) radius deviation of the wheels, m and rad
-    force : (2 m,) packed modal forcing, per second
+    The state that is integrated is the deviation from the linear response to the wheels' radius
+    deviations: where the vehicle is linear, the response is exact at any step.
+
+    amplitude, phase : (4, zones) radius deviation at the contacts of the wheels, m and rad
+    local : (2, 40), linear response of the local variables, real and imaginary part
+    contact_force : (2, 24), linear forces of the radius deviations themselves
+    force : (2 m,) packed modal forcing, per second, without the wheels' deviations
     """
 
     angular_frequency: float
     amplitude: np.ndarray
     phase: np.ndarray
+    local: np.ndarray
+    contact_force: np.ndarray
     force: np.ndarray
 
 
-def no_excitation(basis: ModalBasis) -> Excitation:
+def no_excitation(basis: ModalBasis, contacts: running.Contacts) -> Excitation:
     """Round wheels and no force."""
-    return Excitation(0.0, np.zeros(4), np.zeros(4), np.zeros(2 * basis.eigenvalue.size))
+    round_wheels, modal = np.zeros((4, len(contacts.tables))), np.zeros(2 * basis.eigenvalue.size)
+    local, force = np.zeros((2, 4 * running.LOCALS)), np.zeros((2, 4 * running.WHEEL_FORCES))
+    return Excitation(0.0, round_wheels, round_wheels, local, force, modal)
 
 
 class Passage(NamedTuple):
@@ -179,9 +188,13 @@ def steady(basis: ModalBasis, curvatures: np.ndarray) -> Passage:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _locals_of(basis, z, local):
-    """Local variables of the contacts of a packed modal state."""
-    local[:] = basis.local
+def _locals_of(basis, excitation, z, time, local):
+    """Local variables of the contacts of a packed modal state at a time (s)."""
+    angle = excitation.angular_frequency * time
+    cosine, sine = np.cos(angle), np.sin(angle)
+    for j in range(local.size):
+        linear = cosine * excitation.local[0, j] - sine * excitation.local[1, j]
+        local[j] = basis.local[j] + linear
     for k in range(z.size):
         amount = z[k]
         row = basis.output[k]
@@ -190,12 +203,15 @@ def _locals_of(basis, z, local):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _add_remainder(basis, local, force, forcing):
+def _add_remainder(basis, excitation, time, local, force, forcing):
     """Add the modal forcing by contact forces beyond their linearisation."""
+    angle = excitation.angular_frequency * time
+    cosine, sine = np.cos(angle), np.sin(angle)
     for i in range(force.size):
         wheel = i // running.WHEEL_FORCES
         start = running.LOCALS * wheel
-        remainder = force[i] - basis.force[i]
+        linear = cosine * excitation.contact_force[0, i] - sine * excitation.contact_force[1, i]
+        remainder = force[i] - basis.force[i] - linear
         for j in range(start, start + running.LOCALS):
             remainder -= basis.jacobian[i, j] * (local[j] - basis.local[j])
         row = basis.forcing[i]
@@ -207,12 +223,13 @@ def _add_remainder(basis, local, force, forcing):
 def _forcing(basis, contacts, passage, excitation, z, time, share, work, forcing):
     """Modal forcing (2 m,) beyond the linearised vehicle at a time (s), share of the passage."""
     local, force, curvatures, deviation, rate, scratch, results = work
-    _locals_of(basis, z, local)
+    _locals_of(basis, excitation, z, time, local)
     turn = excitation.angular_frequency
     for w in range(4):
-        angle = turn * time + excitation.phase[w]
-        deviation[w] = excitation.amplitude[w] * np.cos(angle)
-        rate[w] = -turn * excitation.amplitude[w] * np.sin(angle)
+        for zone in range(deviation.shape[1]):
+            angle = turn * time + excitation.phase[w, zone]
+            deviation[w, zone] = excitation.amplitude[w, zone] * np.cos(angle)
+            rate[w, zone] = -turn * excitation.amplitude[w, zone] * np.sin(angle)
     for f in range(3):
         curvatures[f] = passage.curvature[0, f] + share * passage.curvature[1, f]
     running.all_wheel_forces(contacts, curvatures, local, deviation, rate, scratch, results, force)
@@ -221,7 +238,7 @@ def _forcing(basis, contacts, passage, excitation, z, time, share, work, forcing
     for k in range(z.size):
         forcing[k] = c[0, k] + share * (c[1, k] + share * (c[2, k] + share * c[3, k]))
         forcing[k] += cosine * excitation.force[k]
-    _add_remainder(basis, local, force, forcing)
+    _add_remainder(basis, excitation, time, local, force, forcing)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
@@ -350,7 +367,7 @@ def run(
         status = max(status, now)
         if (i + 1) % every == 0:
             k = i // every
-            _locals_of(basis, z, locals_out[k])
+            _locals_of(basis, excitation, z, time + (i + 1) * interval, locals_out[k])
             for wheel in range(results.shape[0]):
                 for zone in range(results.shape[1]):
                     for c in range(columns.size):
@@ -364,6 +381,5 @@ def run(
 def workspace(contacts: running.Contacts) -> tuple:
     """Scratch arrays for `run`."""
     scratch, results = running.workspace(contacts)
-    return (
-        np.empty(40), np.empty(24), np.empty(3), np.empty(4), np.empty(4), scratch, results,
-    )  # fmt: skip
+    deviation, rate = np.empty((2, 4, len(contacts.tables)))
+    return np.empty(40), np.empty(24), np.empty(3), deviation, rate, scratch, results
