@@ -114,3 +114,31 @@ def linear_wear_response(
     passing = 1j * turn[:, None] / bogie.rolling_speed
     area -= wear.area * passing[..., None] * response[..., patch.FORWARD_SHIFT]
     return (area / lead).sum(axis=2) / wear.width
+
+
+def normalised(tendency: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """Tendencies (..., wheel, k) over the largest absolute value of each wheel's reference.
+
+    Parameters
+    ----------
+    tendency : (absorbers, wheels, k)
+    reference : (wheels, k), of the bogie without absorbers; NaN is passed over
+    """
+    size = np.abs(np.where(np.isfinite(reference), reference, 0.0)).max(axis=-1)
+    return tendency / np.where(size > 0.0, size, np.nan)[:, None]
+
+
+def highest_peak(frequency: np.ndarray, tendency: np.ndarray) -> tuple[float, float]:
+    """Frequency and height of the highest positive local maximum; NaN where there is none.
+
+    The vertex of the parabola through the highest point and its neighbours.
+    """
+    middle = tendency[1:-1]
+    tops = 1 + np.flatnonzero((middle > 0.0) & (middle >= tendency[:-2]) & (middle > tendency[2:]))
+    if not tops.size:
+        return np.nan, np.nan
+    k = tops[np.argmax(tendency[tops])]
+    a, b, c = tendency[k - 1 : k + 2]
+    shift = 0.5 * (a - c) / (a - 2.0 * b + c)
+    step = frequency[k + 1] - frequency[k]
+    return float(frequency[k] + shift * step), float(b - 0.25 * (a - c) * shift)

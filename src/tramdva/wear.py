@@ -83,33 +83,53 @@ def _step(x, width):
     return t * t * (3.0 - 2.0 * t)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _share_above(value, limit, spread):
-    """Share of values within value +- spread / 2 that lie above a limit."""
-    if spread <= 0.0:
-        return 1.0 if value > limit else 0.0
-    return min(max((value - limit) / spread + 0.5, 0.0), 1.0)
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _ramp(x):
+    return 0.5 * x * x if x > 0.0 else 0.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def wear_coefficient(pressure, slip_velocity, chart, pressure_spread=0.0, slip_spread=0.0):
+def _share_above(excess, along, across):
+    """Share of a cell in which a linear field lies above a limit.
+
+    Parameters
+    ----------
+    excess : of the cell's middle over the limit
+    along, across : change of the field over the cell in both directions, absolute values
+    """
+    wide, narrow = max(along, across), min(along, across)
+    if wide <= 0.0:
+        return 1.0 if excess > 0.0 else 0.0
+    if narrow < 1e-6 * wide:
+        return min(max(excess / wide + 0.5, 0.0), 1.0)
+    outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
+    total = _ramp(excess + outer) - _ramp(excess + inner) - _ramp(excess - inner)
+    return min((total + _ramp(excess - outer)) / (wide * narrow), 1.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wear_coefficient(
+    pressure, slip_velocity, chart, pressure_change=(0.0, 0.0), slip_change=(0.0, 0.0)
+):
     """Dimensionless wear coefficient k of a cell.
 
     Parameters
     ----------
     pressure : Pa; slip_velocity : m/s
     chart : from `WearChart.as_array`
-    pressure_spread, slip_spread : range of both within the cell; the chart's steps are averaged
-        over it, so that the wear of a patch has no stairs and converges with the square of the
-        cell size
+    pressure_change, slip_change : change of both over the cell along and across the patch, not
+        negative. The chart's steps are averaged over the cell, exactly where the field is linear:
+        the wear of a patch then has no stairs.
     """
     method = int(chart[11])
     if method == CONSTANT:
         return chart[10]
     if method == CHART:
-        low = 1.0 - _share_above(-slip_velocity, -chart[5], slip_spread)  # the limit counts
-        high = _share_above(slip_velocity, chart[6], slip_spread)
-        seizure = _share_above(pressure, chart[7] * chart[0], pressure_spread)
+        # Shares below the limit, so that the limit itself counts as severe.
+        low = 1.0 - _share_above(chart[5] - slip_velocity, slip_change[0], slip_change[1])
+        high = _share_above(slip_velocity - chart[6], slip_change[0], slip_change[1])
+        excess = pressure - chart[7] * chart[0]
+        seizure = _share_above(excess, pressure_change[0], pressure_change[1])
     else:
         low = _step(slip_velocity - chart[5], chart[8])
         high = _step(slip_velocity - chart[6], chart[8])
@@ -124,25 +144,12 @@ def _slip(field, k, j):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _neighbours(field, k, j):
-    """Indices of the cells before and behind, beside and beside; padding strips are left out."""
-    rows, strips = field.area.shape
-    right = min(j + 1, strips - 1)
-    if field.area[k, right] == 0.0:
-        right = j
-    return max(k - 1, 0), min(k + 1, rows - 1), max(j - 1, 0), right
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _spreads(field, k, j):
-    """Range of pressure (Pa) and of slip over rolling speed within a cell."""
-    before, behind, left, right = _neighbours(field, k, j)
-    along, across = max(behind - before, 1), max(right - left, 1)
-    pressure = abs(field.pressure[behind, j] - field.pressure[before, j]) / along
-    pressure += abs(field.pressure[k, right] - field.pressure[k, left]) / across
-    slip = abs(_slip(field, behind, j) - _slip(field, before, j)) / along
-    slip += abs(_slip(field, k, right) - _slip(field, k, left)) / across
-    return pressure, slip
+def _changes(values, k, j, strips):
+    """Change of a field (along, strips) over a cell along and across the patch, in one cell."""
+    before, behind = max(k - 1, 0), min(k + 1, values.shape[0] - 1)
+    left, right = max(j - 1, 0), min(j + 1, strips - 1)
+    along = abs(values[behind, j] - values[before, j]) / (behind - before)
+    return along, abs(values[k, right] - values[k, left]) / (right - left)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -161,24 +168,28 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     worn_area : cross-section of removed material in m^2 (depth integrated across the patch;
         times 2 pi R the volume of one revolution).
     """
-    for j in range(strip_depth.size):
-        strip_depth[j] = 0.0
-    worn_area = 0.0
-    for k in range(field.area.shape[0]):
-        for j in range(field.area.shape[1]):
-            slip = _slip(field, k, j)
-            if slip == 0.0 or field.area[k, j] == 0.0:
+    strip_depth[:] = 0.0
+    slip, strips = np.empty(field.area.shape), 0
+    for j in range(slip.shape[1]):
+        strips += field.area[0, j] > 0.0  # padding strips come last
+        for k in range(slip.shape[0]):
+            slip[k, j] = _slip(field, k, j)
+    worn_area, speed = 0.0, abs(rolling_speed)
+    sharp = int(chart[11]) == CHART
+    pressure_change = slip_change = (0.0, 0.0)
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            if slip[k, j] == 0.0:
                 continue
             pressure = field.pressure[k, j]
-            pressure_spread, slip_spread = _spreads(field, k, j)
+            if sharp:
+                pressure_change = _changes(field.pressure, k, j, strips)
+                along, across = _changes(slip, k, j, strips)
+                slip_change = speed * along, speed * across
             coefficient = wear_coefficient(
-                pressure,
-                slip * abs(rolling_speed),
-                chart,
-                pressure_spread,
-                slip_spread * abs(rolling_speed),
+                pressure, speed * slip[k, j], chart, pressure_change, slip_change
             )
-            depth = coefficient * pressure * slip * field.length_x[k, j] / chart[0]
+            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart[0]
             strip_depth[j] += depth
             worn_area += depth * field.area[k, j] / field.length_x[k, j]
     return worn_area

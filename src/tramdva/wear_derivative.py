@@ -74,24 +74,36 @@ def _root(square: np.ndarray) -> np.ndarray:
     return np.where(square == 0.0, 0.0, np.sqrt(np.where(square == 0.0, 1.0, square)))
 
 
-def _spread(values: np.ndarray) -> np.ndarray:
-    """Range within the cells of an array (along, strips), as `wear` takes it."""
-    total = np.zeros_like(values)
+def _changes(values: np.ndarray) -> list[np.ndarray]:
+    """Change of a field (along, strips) over each cell along and across the patch."""
+    out = []
     for axis in range(2):
         count = values.shape[axis]
         low, high = np.maximum(np.arange(count) - 1, 0), np.minimum(np.arange(count) + 1, count - 1)
-        distance = np.maximum(high - low, 1)
         change = np.take(values, high, axis) - np.take(values, low, axis)
-        change /= distance[:, None] if axis == 0 else distance
-        total += np.where(change.real < 0.0, -change, change)
-    return total
+        change /= (high - low)[:, None] if axis == 0 else high - low
+        out.append(np.where(change.real < 0.0, -change, change))
+    return out
 
 
-def _share_above(value: np.ndarray, limit: float, spread: np.ndarray) -> np.ndarray:
-    flat = spread.real <= 0.0
-    share = (value - limit) / np.where(flat, 1.0, spread) + 0.5
-    share = np.where(share.real < 0.0, 0.0, np.where(share.real > 1.0, 1.0, share))
-    return np.where(flat, (value.real > limit).astype(complex), share)
+def _ramp(x: np.ndarray) -> np.ndarray:
+    return np.where(x.real > 0.0, 0.5 * x * x, 0.0)
+
+
+def _share_above(excess: np.ndarray, changes: list[np.ndarray]) -> np.ndarray:
+    """Share of each cell above a limit; see `wear`."""
+    first_wider = changes[0].real >= changes[1].real
+    wide = np.where(first_wider, changes[0], changes[1])
+    narrow = np.where(first_wider, changes[1], changes[0])
+    flat, strip = wide.real <= 0.0, narrow.real < 1e-6 * wide.real
+    safe_wide, safe_narrow = np.where(flat, 1.0, wide), np.where(strip | flat, 1.0, narrow)
+    outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
+    total = _ramp(excess + outer) - _ramp(excess + inner) - _ramp(excess - inner)
+    share = (total + _ramp(excess - outer)) / (safe_wide * safe_narrow)
+    line = excess / safe_wide + 0.5
+    share = np.where(strip, np.where(line.real < 0.0, 0.0, line), share)
+    share = np.where(share.real > 1.0, 1.0, share)
+    return np.where(flat, (excess.real > 0.0).astype(complex), share)
 
 
 def _step(x: np.ndarray, width: float) -> np.ndarray:
@@ -105,11 +117,11 @@ def _coefficient(pressure: np.ndarray, velocity: np.ndarray, chart: WearChart) -
     if method == CONSTANT:
         return np.full(pressure.shape, chart.coefficient_constant, complex)
     if method == CHART:
-        spread = _spread(velocity)
-        low = _share_above(velocity, chart.velocity_low, spread)
-        high = _share_above(velocity, chart.velocity_high, spread)
-        limit = chart.pressure_share * chart.hardness
-        seizure = _share_above(pressure, limit, _spread(pressure))
+        changes = _changes(velocity)
+        low = 1.0 - _share_above(chart.velocity_low - velocity, changes)
+        high = _share_above(velocity - chart.velocity_high, changes)
+        excess = pressure - chart.pressure_share * chart.hardness
+        seizure = _share_above(excess, _changes(pressure))
     else:
         low = _step(velocity - chart.velocity_low, chart.velocity_width)
         high = _step(velocity - chart.velocity_high, chart.velocity_width)

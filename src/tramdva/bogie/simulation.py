@@ -85,7 +85,7 @@ def simulate_wave(
     for number in range(settings.longest_transient + settings.kept):
         local, results, status = one.run(z, number)
         if status > integration.CONTACT_LOST:
-            return _failed(one, kept + [results], number, integration.STATUS[status])
+            return _failed(one, [*kept, results], number, integration.STATUS[status])
         if before is not None:
             differences.append(_difference(local, before))
         before = local

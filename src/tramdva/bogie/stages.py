@@ -19,11 +19,12 @@ from tramdva.bogie.line import (
     with_friction_decrease,
 )
 from tramdva.bogie.modes import Modes
+from tramdva.bogie.rough_wheel_files import variables, zone_names
+from tramdva.bogie.rough_wheels import rough_bogie
 from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS
 from tramdva.contact import patch
 
 DESIGNS = ("none", "paper", "tuned")
-ZONES = ("tread", "flange")
 CONTACT_VARIABLES = {
     "normal_force": patch.NORMAL_FORCE,
     "contact_angle": patch.CONTACT_ANGLE,
@@ -36,10 +37,6 @@ CONTACT_VARIABLES = {
     "wheel_position": patch.WHEEL_POSITION,
     "forward_shift": patch.FORWARD_SHIFT,
 }
-
-
-def _zone_names(count: int) -> list[str]:
-    return [ZONES[k] if k < len(ZONES) else f"zone_{k + 1}" for k in range(count)]
 
 
 def curving_equilibrium(
@@ -64,7 +61,7 @@ def curving_equilibrium(
     runs = [changed(line, absorber(line, *design), none) for design in designs]
     results = np.array([run.equilibrium.results for run in runs])
     touching = results[..., patch.STATUS] != patch.NO_CONTACT
-    zones = _zone_names(results.shape[2])
+    zones = zone_names(results.shape[2])
     contacts = len(WHEELS) * len(zones)
     stiffness, damping = np.array(designs).T
     inertia = np.where(np.isnan(stiffness), np.nan, line.bogie.absorber.I_T)
@@ -270,4 +267,42 @@ def curve_entry(
         "normal_force": normal,
         "evaluations": np.array([float(ride.evaluations) for ride in rides]),
         "status": np.array([ride.status for ride in rides]),
+    }
+
+
+def bogie_linearisation(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    tuned: tuple[float, float] | None = None,
+) -> dict[str, np.ndarray]:
+    """The bogie in its curve without self-excitation, linearised with its wheels out of round.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, without ``bogie.absorber`` for the bogie without absorbers
+    contact_geometry : variables of this file
+    tuned : stiffness and damping of the absorber instead of those in the configuration
+
+    Returns
+    -------
+    Variables of ``bogie_linearisation``.
+    """
+    force = cfg["creep_force"] | cfg["forced_excitation"]
+    bogie = dict(cfg["bogie"])
+    if tuned is not None:
+        bogie["absorber"] = bogie["absorber"] | {"c_T": tuned[0], "d_T": tuned[1]}
+    line = bogie_line({**cfg, "bogie": bogie, "creep_force": force}, contact_geometry)
+    run = run_through(line, cfg["numerics"]["curvature_steps"])
+    design = getattr(line.bogie, "absorber", None)
+    if design is not None:
+        run = changed(line, design, run)
+    law = {**force, **cfg["contact_geometry"]["material"], **cfg["numerics"]}
+    return {
+        **{
+            name: np.float64(getattr(design, own, np.nan))
+            for name, own in (("m_T", "I_T"), ("c_T", "c_T"), ("d_T", "d_T"))
+        },
+        **variables(rough_bogie(run.curve, run.equilibrium), run.curve.contacts.places, law),
+        "residual": np.float64(run.equilibrium.residual),
+        "status": np.array(run.equilibrium.status),
     }
