@@ -33,6 +33,7 @@ LAYERS = [
     {"bogie"},
     {"evolution"},
     {"evolution_stages"},
+    {"tendency_maps"},
 ]
 # What the pipeline uses around the model, and what each may know.
 AROUND = {
@@ -40,14 +41,15 @@ AROUND = {
     "parameters": {"bogie_parameters", "bogie_study", "evolution_study", "quantities"},
     "bogie_study": {"quantities"},
     "evolution_study": {"bogie_study", "quantities"},
-    "registry": set(),
+    "result_variables": set(),
+    "registry": {"result_variables"},
     "strict_yaml": set(),
     "provenance": set(),
     "job": set(),
     "schema": {"parameters"},
     "slips": {"parameters", "schema"},
     "config": {"bogie_parameters", "parameters", "schema", "slips", "strict_yaml"},
-    "results": {"registry"},
+    "results": {"registry", "result_variables"},
     "figures": {"results"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}

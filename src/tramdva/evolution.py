@@ -17,7 +17,7 @@ import numpy as np
 from tramdva.bogie.rough_wheels import (
     RoughBogie,
     contact_angles,
-    contact_response,
+    local_response,
     wheel_mask,
 )
 from tramdva.contact import patch
@@ -63,11 +63,21 @@ class WearSensitivity(NamedTuple):
         return self.area.sum(axis=1) / self.width
 
 
-def wear_sensitivity(bogie: RoughBogie, law: patch.ContactLaw, grid: PatchGrid, chart: WearChart):
-    """Wear of the contacts in equilibrium; `grid` of the patch for wear, `law` of the contacts."""
+def wear_sensitivity(
+    bogie: RoughBogie, law: patch.ContactLaw, grid: PatchGrid, chart: WearChart, wheels
+) -> WearSensitivity:
+    """Wear in equilibrium of the contacts of some wheels, by name; zero for the others.
+
+    Parameters
+    ----------
+    bogie : RoughBogie; law : ContactLaw of its contacts
+    grid : PatchGrid, cells of the patch for wear
+    chart : WearChart; wheels : names
+    """
     shape = bogie.results.shape[:2]
     area, gradient = np.zeros(shape), np.zeros((*shape, len(WEAR_INPUTS)))
-    for wheel, zone in zip(*np.nonzero(bogie.touching), strict=True):
+    worn = bogie.touching & (wheel_mask(wheels) > 0.0)[:, None]
+    for wheel, zone in zip(*np.nonzero(worn), strict=True):
         area[wheel, zone], gradient[wheel, zone] = worn_area_gradient(
             bogie.results[wheel, zone, list(WEAR_INPUTS)],
             law.kalker_table,
@@ -82,6 +92,56 @@ def wear_sensitivity(bogie: RoughBogie, law: patch.ContactLaw, grid: PatchGrid, 
 def patch_width(bogie: RoughBogie) -> np.ndarray:
     """Width (4,) in m of the patches in equilibrium, over which wear is averaged."""
     return 2.0 * np.where(bogie.touching, bogie.results[..., patch.SEMI_AXIS_LATERAL], 0.0).max(1)
+
+
+class WearRows(NamedTuple):
+    """Wear response as a linear function of the vehicle's motion.
+
+    local : (f, 4, 10) complex, per local variables of the wheel
+    direct : (f, 4) complex, by the radius deviation itself
+    source : (f, 4, zones) complex, deviations at the contacts per unit wave
+    """
+
+    local: np.ndarray
+    direct: np.ndarray
+    source: np.ndarray
+
+
+def wear_rows(
+    bogie: RoughBogie,
+    wear: WearSensitivity,
+    frequency: np.ndarray,
+    speed: float,
+    wheel_radius: float,
+    wheels,
+) -> WearRows:
+    """Wear per revolution of the wheels by waves at frequencies in Hz, arguments as below.
+
+    Notes
+    -----
+    A contact that moves ahead at x_c' passes the material faster, by 1 + x_c' / V_w: the depth
+    changes by -x_c' / V_w of the mean depth. The wear is taken back to the angle at which it
+    happened, x_c / r_w ahead of the wheel's angle.
+    """
+    turn = 2.0 * np.pi * np.asarray(frequency, float)
+    order = order_of_frequency(frequency, speed, wheel_radius)
+    lead = np.exp(1j * order[:, None, None] * contact_angles(bogie, wheel_radius, speed))
+    source = lead * wheel_mask(wheels)[None, :, None] * bogie.touching
+    back = bogie.touching / lead / wear.width[:, None]
+    passing = 1j * turn[:, None, None] * (wear.area / bogie.rolling_speed[:, None])
+
+    def wear_by(sensitivity: np.ndarray) -> np.ndarray:
+        """Wear (f, 4, zones, k) from derivatives (4, zones, results, k) of the contacts."""
+        steady = np.einsum("wzck,wzc->wzk", sensitivity[:, :, list(WEAR_INPUTS)], wear.gradient)
+        return steady - passing[..., None] * sensitivity[:, :, patch.FORWARD_SHIFT]
+
+    deviation = wear_by(bogie.sensitivity.deviation)
+    direct = deviation[..., 0] + 1j * turn[:, None, None] * deviation[..., 1]
+    return WearRows(
+        np.einsum("fwzk,fwz->fwk", wear_by(bogie.sensitivity.local), back),
+        np.sum(direct * source * back, axis=2),
+        source,
+    )
 
 
 def linear_wear_response(
@@ -99,21 +159,11 @@ def linear_wear_response(
     bogie : RoughBogie; wear : WearSensitivity
     frequency : (f,) Hz; speed : m/s; wheel_radius : m
     wheels : names of the wheels out of round, their waves in phase
-
-    Notes
-    -----
-    A contact that moves ahead at x_c' passes the material faster, by 1 + x_c' / V_w: the depth
-    changes by -x_c' / V_w of the mean depth. The wear is taken back to the angle at which it
-    happened, x_c / r_w ahead of the wheel's angle.
     """
-    turn = 2.0 * np.pi * np.asarray(frequency, float)
-    order = order_of_frequency(frequency, speed, wheel_radius)
-    lead = np.exp(1j * order[:, None, None] * contact_angles(bogie, wheel_radius, speed))
-    response = contact_response(bogie, turn, lead * wheel_mask(wheels)[None, :, None])
-    area = np.einsum("fwzc,wzc->fwz", response[..., list(WEAR_INPUTS)], wear.gradient)
-    passing = 1j * turn[:, None] / bogie.rolling_speed
-    area -= wear.area * passing[..., None] * response[..., patch.FORWARD_SHIFT]
-    return (area / lead).sum(axis=2) / wear.width
+    rows = wear_rows(bogie, wear, frequency, speed, wheel_radius, wheels)
+    local = local_response(bogie, 2.0 * np.pi * np.asarray(frequency, float), rows.source)
+    local = local.reshape(*rows.direct.shape, -1)
+    return np.einsum("fwk,fwk->fw", rows.local, local) + rows.direct
 
 
 def normalised(tendency: np.ndarray, reference: np.ndarray) -> np.ndarray:

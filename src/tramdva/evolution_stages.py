@@ -165,7 +165,13 @@ def _chosen(cfg: Mapping[str, Any]) -> list[int]:
 
 
 def _sensitivity(cfg, stored: StoredBogie) -> evolution.WearSensitivity:
-    return evolution.wear_sensitivity(stored.bogie, stored.law, wear_grid(cfg), wear_chart(cfg))
+    return evolution.wear_sensitivity(
+        stored.bogie,
+        stored.law,
+        wear_grid(cfg),
+        wear_chart(cfg),
+        cfg["out_of_roundness"]["wheels"],
+    )
 
 
 def _linear_response(cfg, stored: StoredBogie, frequency: np.ndarray) -> np.ndarray:

@@ -114,6 +114,7 @@ class TendencyMapsStudy(Section):
 
     speed: SpeedInterval
     radius: RadiusInterval
+    design_band: TendencyFrequencyInterval
     c_T: AbsorberStiffnessInterval
     d_T: AbsorberDampingInterval
 

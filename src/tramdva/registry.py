@@ -7,7 +7,7 @@ and `flag_meanings`; a truth is the flag `false true`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from tramdva.result_variables import Stage, flag, real, text, truth
 
 STATUS = (
     "converged",
@@ -27,45 +27,6 @@ WEAR_REGIONS = ("mild", "severe", "mild_fast", "seizure", "adhesion")
 PEAK_STATUS = ("found", "no_peak")
 INSTABILITIES = ("stable", "oscillatory", "monotone", "no_equilibrium")
 _AXLE = "stiffness of axle and primary suspension"
-
-
-@dataclass(frozen=True)
-class Variable:
-    """One variable of a result file."""
-
-    kind: str  # real, flag, truth, text
-    dimensions: tuple[str, ...]
-    unit: str
-    long_name: str
-    meanings: tuple[str, ...] = ()  # of the values 0, 1, 2, ... of a flag
-
-
-@dataclass(frozen=True)
-class Stage:
-    """One result file."""
-
-    title: str
-    variables: dict[str, Variable]
-
-
-def real(dimensions: str, unit: str, long_name: str) -> Variable:
-    """Describe a variable of float64."""
-    return Variable("real", tuple(dimensions.split()), unit, long_name)
-
-
-def flag(dimensions: str, meanings: tuple[str, ...], long_name: str) -> Variable:
-    """Describe a variable that takes one of a few named values."""
-    return Variable("flag", tuple(dimensions.split()), "1", long_name, meanings)
-
-
-def truth(dimensions: str, long_name: str) -> Variable:
-    """Describe a variable that is true or false."""
-    return Variable("truth", tuple(dimensions.split()), "1", long_name, ("false", "true"))
-
-
-def text(dimensions: str, long_name: str) -> Variable:
-    """Describe a variable of texts."""
-    return Variable("text", tuple(dimensions.split()), "1", long_name)
 
 
 _BOGIE_ABSORBERS = {
@@ -496,11 +457,16 @@ STAGES: dict[str, Stage] = {
             "speed_tendency": real(
                 "absorber wheel speed frequency", "1", "evolution tendency per revolution"
             ),
-            "speed_growth_rate": real("absorber speed", "s-1", "largest growth rate"),
+            "speed_growth_rate": real(
+                "absorber speed", "s-1", "largest growth rate in the band of design"
+            ),
             "speed_status": flag("absorber speed", CURVING_STATUS, "status of the equilibrium"),
             "radius": real("radius", "m", "curve radius"),
             "radius_tendency": real(
                 "absorber wheel radius frequency", "1", "evolution tendency per revolution"
+            ),
+            "radius_growth_rate": real(
+                "absorber radius", "s-1", "largest growth rate in the band of design"
             ),
             "radius_status": flag("absorber radius", CURVING_STATUS, "status of the equilibrium"),
             "map_d_T": real("map_d_T", "N m s/rad", "damping of the absorber"),

@@ -19,7 +19,8 @@ import netCDF4
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tramdva.registry import STAGES, Stage, Variable
+from tramdva.registry import STAGES
+from tramdva.result_variables import Stage, Variable
 
 if TYPE_CHECKING:
     import xarray

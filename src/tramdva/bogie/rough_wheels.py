@@ -131,23 +131,3 @@ def local_response(
     second = 0.5 * (packed[:, :m] - 1j * packed[:, m:]) / (turn - basis.eigenvalue.conj())
     output = basis.output[:m] - 1j * basis.output[m:]
     return first @ output + second @ output.conj()
-
-
-def contact_response(
-    bogie: RoughBogie, angular_frequency: np.ndarray, source: np.ndarray
-) -> np.ndarray:
-    """Complex amplitudes (f, 4, zones, patch.RESULTS) of the contact results.
-
-    Parameters
-    ----------
-    As in `local_response`; zero for zones apart.
-    """
-    local = local_response(bogie, angular_frequency, source)
-    local = local.reshape(len(local), 4, running.LOCALS)
-    s = bogie.sensitivity
-    touching = np.where(bogie.touching[None], source, 0.0)
-    response = np.einsum("fwk,wzck->fwzc", local, s.local.astype(complex))
-    rate = 1j * angular_frequency[:, None, None] * touching
-    response += touching[..., None] * s.deviation[None, ..., 0]
-    response += rate[..., None] * s.deviation[None, ..., 1]
-    return np.where(bogie.touching[None, ..., None], response, 0.0)

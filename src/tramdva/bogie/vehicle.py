@@ -280,6 +280,24 @@ def _absorber_carrier(layout: _Layout, absorber, wheel: int) -> tuple[np.ndarray
     return point, direction @ rows
 
 
+def absorber_carriers(vehicle: Vehicle, absorber) -> tuple[np.ndarray, np.ndarray]:
+    """Where absorbers could be attached to a vehicle without absorbers.
+
+    Returns
+    -------
+    along : (4, n), motion of the axles along the absorbers' directions
+    across : (k, n), motions that a translating absorber follows as a mass; none if it rotates
+    """
+    layout = _Layout(vehicle.axle, 0)
+    along, across = [], []
+    for wheel in range(4):
+        point, direction = _absorber_carrier(layout, absorber, wheel)
+        along.append(direction)
+        if absorber.motion == "translation":
+            across += list(np.linalg.svd(unit_direction(absorber)[None])[2][1:] @ point[:3])
+    return np.array(along), np.array(across).reshape(-1, layout.size)
+
+
 def unit_direction(absorber) -> np.ndarray:
     """Direction (3,) of an absorber's motion."""
     d = np.array([absorber.direction.x, absorber.direction.y, absorber.direction.z])
