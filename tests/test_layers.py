@@ -51,11 +51,13 @@ AROUND = {
     "config": {"bogie_parameters", "parameters", "schema", "slips", "strict_yaml"},
     "results": {"registry", "result_variables"},
     "figures": {"results"},
+    "tables": {"results"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {
     *READ_MEASUREMENTS,
     "figures",
+    "tables",
     "config",
     "strict_yaml",
     "schema",

@@ -153,6 +153,10 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
     "bogie_stability": (*_FIGURE, "creep_force.B"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
+    "fig10_evolution_tendency": _FIGURE,
+    "worn_wheels": _FIGURE,
+    "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
+    "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
 }
 
 

@@ -224,6 +224,7 @@ STAGES: dict[str, Stage] = {
             "wheel_radius": real("zone", "m", "wheel radius at the tape circle"),
             "shear": real("zone", "m", "shift of the table per tan(yaw)^2"),
         },
+        compressed=False,
     ),
     "curving_equilibrium": Stage(
         "Steady running of the bogie in the curve",

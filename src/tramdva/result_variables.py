@@ -22,6 +22,7 @@ class Stage:
 
     title: str
     variables: dict[str, Variable]
+    compressed: bool = True  # not where many short jobs read a large file
 
 
 def real(dimensions: str, unit: str, long_name: str) -> Variable:

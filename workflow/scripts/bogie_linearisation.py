@@ -24,5 +24,5 @@ if __name__ == "__main__":
             code=snakemake.params.code,
             cfg=snakemake.params.cfg,
             contact_geometry=snakemake.input.contact_geometry,
-            curving_equilibrium=snakemake.input.get("curving_equilibrium"),
+            curving_equilibrium=snakemake.input.get("curving_equilibrium") or None,
         )

@@ -35,5 +35,5 @@ if __name__ == "__main__":
             order=int(snakemake.wildcards.order),
             contact_geometry=snakemake.input.contact_geometry,
             bogie_linearisation=snakemake.input.bogie_linearisation,
-            measured=snakemake.input.get("measured"),
+            measured=snakemake.input.get("measured") or None,
         )
