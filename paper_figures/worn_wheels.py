@@ -65,22 +65,19 @@ def draw_wheel(axes: Axes, worn: dict[str, np.ndarray], row: int) -> None:
 
 
 def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
-    """Draw the growth of each order per revolution as bars, with and without absorbers."""
-    axes.axhline(0.0, color="black", linewidth=0.6)
-    width = 0.8 / tendency["absorber"].size
+    """Draw the order spectrum: levels now and after some revolutions."""
+    order = tendency["order"]
+    axes.step(order, tendency["level"][row], where="mid", color="black", linewidth=0.9, label="now")
     for k, name in enumerate(map(str, tendency["absorber"])):
         words = figures.design_name(name).replace("Table 2", "Table 3")
-        axes.bar(
-            tendency["order"] + (k - 0.5) * width,
-            1e3 * tendency["evolution_tendency"][k, row],
-            width,
-            color=("C1", "0.55", "C2")[k],
-            label=words,
-        )
-    axes.set(xlabel="order (waves around the wheel)", ylabel="growth per 1000 revolutions")
+        axes.step(
+            order, tendency["level_after"][k, row], where="mid", color=("C1", "0.55", "C2")[k],
+            linewidth=1.1, label=f"later, {words}",
+        )  # fmt: skip
+    axes.set(xlabel="order (waves around the wheel)", ylabel="level (dB re 1 µm)")
     axes.legend(loc="upper left")
-    speed = tendency["frequency_axis"] / tendency["order_axis"]
-    top = axes.secondary_xaxis("top", functions=(lambda n: n * speed[0], lambda f: f / speed[0]))
+    speed = float(tendency["frequency_axis"][0] / tendency["order_axis"][0])
+    top = axes.secondary_xaxis("top", functions=(lambda n: n * speed, lambda f: f / speed))
     top.set_xlabel("frequency (Hz)")
     axes.tick_params(which="both", top=False)
 

@@ -9,7 +9,7 @@ from tramdva import evolution
 from tramdva.bogie.rough_wheel_files import StoredBogie, stored_bogie
 from tramdva.bogie.vehicle import WHEELS
 from tramdva.contact import fastsim, patch
-from tramdva.out_of_roundness import radius_deviation
+from tramdva.out_of_roundness import level, radius_deviation
 from tramdva.wear import WearChart
 from tramdva.wear_history import AREAS, ContactHistory, depth_around, passages, wear_orders
 
@@ -52,6 +52,7 @@ def wear(cfg: Mapping[str, Any], simulation: Mapping[str, np.ndarray]) -> dict[s
     response = orders[:, order] / amplitude
     return {
         **{name: simulation[name] for name in ("order", "frequency", "wheel", "status")},
+        "amplitude": np.float64(abs(amplitude)),
         "angle": angle,
         "radius_deviation": np.tile(
             radius_deviation([order], [amplitude], angle), (orders.shape[0], 1)
@@ -143,6 +144,7 @@ def evolution_tendency(
         "evolution_tendency_normalised": evolution.normalised(
             simulated["evolution_tendency"], simulated["evolution_tendency"][none]
         ),
+        **_levels(absorbers, worn, simulated["evolution_tendency"], study["revolutions"]),
         "frequency_axis": axis,
         "order_axis": evolution.order_of_frequency(axis, speed, radius),
         "linearised_wear_response_real": linear.real,
@@ -205,10 +207,7 @@ def _simulated(absorbers: Sequence[str], worn) -> dict[str, np.ndarray]:
 
     status = of("status")
     steady = (status == "periodic")[:, None]
-    deviation = np.array(
-        [[np.ptp(part["radius_deviation"], axis=1) / 2.0 for part in worn[a]] for a in absorbers]
-    )
-    amplitude = of("wear_amplitude") / np.moveaxis(deviation, 1, -1)
+    amplitude = of("wear_amplitude") / of("amplitude")[:, None]
     response = np.where(steady, amplitude * np.exp(1j * of("wear_phase")), np.nan)
     return {
         "wear_response_amplitude": np.abs(response),
@@ -218,6 +217,15 @@ def _simulated(absorbers: Sequence[str], worn) -> dict[str, np.ndarray]:
         "harmonic_distortion": np.where(steady, of("harmonic_distortion"), np.nan),
         "region_changes": of("region_changes"),
         "status": status,
+    }
+
+
+def _levels(absorbers, worn, tendency: np.ndarray, revolutions: float) -> dict[str, np.ndarray]:
+    """Levels of the orders in dB, now and after some revolutions of exponential growth."""
+    amplitude = np.array([float(part["amplitude"]) for part in worn[absorbers[0]]])
+    return {
+        "level": np.tile(level(amplitude), (tendency.shape[1], 1)),
+        "level_after": level(amplitude * np.exp(tendency * revolutions)),
     }
 
 

@@ -83,6 +83,7 @@ class EvolutionTendencyStudy(Section):
         tuple[AbsorberName, ...], Field(min_length=1, max_length=3), AfterValidator(unique)
     ] = Field(description="absorbers with which the bogie runs; none must be among them")
     frequency: TendencyFrequencyInterval
+    revolutions: Real = quantity("revolutions of the predicted levels", "-", 1, 1e6, "ASSUME")
     peaks: Annotated[tuple[Peak, ...], Field(min_length=1, max_length=20)] = Field(
         description="peaks of the tendency"
     )

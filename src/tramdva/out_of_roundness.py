@@ -85,16 +85,6 @@ def level(amplitude: np.ndarray) -> np.ndarray:
         return 20.0 * np.log10(np.abs(amplitude) / np.sqrt(2.0) / REFERENCE)
 
 
-def amplitude_of_level(level_: np.ndarray) -> np.ndarray:
-    """Amplitude in m of a wave with a level in dB re 1 um."""
-    return np.sqrt(2.0) * REFERENCE * 10.0 ** (np.asarray(level_, float) / 20.0)
-
-
-def run_out(angle: np.ndarray, deviation: np.ndarray) -> float:
-    """Total run-out in m: largest less smallest deviation."""
-    return float(np.ptp(deviation))
-
-
 def read_measurement(path: str | Path) -> Measurement:
     """Read a measured out-of-roundness.
 

@@ -381,6 +381,7 @@ STAGES: dict[str, Stage] = {
             "order": real("", "1", "waves around the wheel"),
             "frequency": real("", "Hz", "frequency of the waves"),
             "wheel": text("wheel", "wheel out of round"),
+            "amplitude": real("", "m", "amplitude of the waves"),
             "angle": real("angle", "rad", "wheel angle of the material point"),
             "radius_deviation": real("wheel angle", "m", "radius deviation, crest positive"),
             "wear_depth": real("wheel angle", "m", "depth worn away per revolution, mean width"),
@@ -419,6 +420,10 @@ STAGES: dict[str, Stage] = {
                 )
             },
             "region_changes": truth("absorber wheel order", "whether the wear region changes"),
+            "level": real("wheel order", "dB", "level of the radius deviation re 1 um"),
+            "level_after": real(
+                "absorber wheel order", "dB", "level after the study's number of revolutions"
+            ),
             "status": flag("absorber order", WAVE_STATUS, "status of the simulation"),
             "frequency_axis": real("frequency_axis", "Hz", "frequency of the linearised vehicle"),
             "order_axis": real("frequency_axis", "1", "the order of this frequency"),
