@@ -6,7 +6,7 @@ import pytest
 from tramdva.bogie import modes
 from tramdva.bogie import running as contact
 from tramdva.bogie.curving import angle_of_attack, linearise, wheel_loads
-from tramdva.bogie.line import absorber, changed, run_through, with_friction_decrease
+from tramdva.bogie.line import absorber, changed, run_through
 from tramdva.contact import patch
 
 LIMITS = (30.0, 200.0)
@@ -74,8 +74,8 @@ def test_second_bending_is_self_excited_and_absorbers_damp_it(line, running):
     assert 54.0 < found.frequency[critical] < 56.0  # paper: near 55 Hz
     # The line's axle damping is set for this rate.
     np.testing.assert_allclose(found.eigenvalue[critical].real, 0.3, atol=0.01)
-    gentle = changed(with_friction_decrease(line, 0.4), None, running)
-    at_gentle = modes.critical_oscillation(gentle.curve, gentle.equilibrium.state, LIMITS)
+    gentle = modes.at_friction(running.curve, running.equilibrium.state, 0.4)
+    at_gentle = modes.critical_of(gentle, LIMITS)
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     with_absorber = modes.critical_oscillation(damped.curve, damped.equilibrium.state, LIMITS)
     assert at_gentle.growth_rate < -1.0
@@ -86,6 +86,42 @@ def test_shares_of_strain_energy_sum_to_one(running):
     found = modes.modes(running.curve, running.equilibrium.state, (1.0, 200.0))
     np.testing.assert_allclose(found.share.sum(axis=(1, 2)), 1.0)
     assert found.share.min() > -1e-12
+
+
+@pytest.mark.parametrize("motion", ["rotation", "translation"])
+def test_family_of_absorbers_is_each_bogie_by_itself(line, running, motion):
+    """One equilibrium for all stiffnesses and dampings, or one each: the same modes."""
+    design = line.bogie.absorber.model_copy(update={"motion": motion})
+    if motion == "translation":
+        upwards = design.direction.model_copy(update={"x": 0.0, "z": 1.0})
+        values = {"direction": upwards, "I_T": 10.0, "c_T": 1.2e6, "d_T": 500.0}
+        design = design.model_copy(update=values)
+    line = line._replace(bogie=line.bogie.model_copy(update={"absorber": design}))
+    c_T, d_T = 0.7 * design.c_T, 2.5 * design.d_T
+    system, linear = modes.absorber_family(line, running).member(c_T, d_T)
+    alone = changed(line, absorber(line, c_T, d_T), running)
+    found = modes.modes_of(system, linear, (1.0, 200.0))
+    expected = modes.modes(alone.curve, alone.equilibrium.state, (1.0, 200.0))
+    # The contact Jacobian differs by the noise of differences at states 1e-10 apart.
+    np.testing.assert_allclose(found.eigenvalue, expected.eigenvalue, rtol=1e-5)
+    np.testing.assert_allclose(found.share, expected.share, atol=1e-4)
+
+
+def test_critical_friction_decrease_has_no_growth(running):
+    decrease = np.linspace(0.4, 1.0, 3)
+    system, state = running.curve, running.equilibrium.state
+    growth = np.array(
+        [
+            modes.critical_of(modes.at_friction(system, state, B), LIMITS).growth_rate
+            for B in decrease
+        ]
+    )
+    B = modes.critical_friction_decrease(system, state, LIMITS, decrease, growth)
+    at_onset = modes.critical_of(modes.at_friction(system, state, B), LIMITS)
+    # 1e-4 s/m times the slope of 15 1/s per s/m
+    assert abs(at_onset.growth_rate) < 2e-3
+    stable = modes.critical_friction_decrease(system, state, LIMITS, decrease, growth - 100.0)
+    assert np.isnan(stable)
 
 
 def test_carried_over_absorber_keeps_frequency_and_damping_ratio():

@@ -99,7 +99,7 @@ def ride(route: Route, duration: float, interval: float, every: int, tolerance: 
         tables = integration.step_table(basis.eigenvalue, interval)
         part = slice(section.first // every, section.last // every)
         level, status, written, count = integration.run(
-            basis, contacts, passage, integration.no_excitation(basis), tables, interval,
+            basis.contact, contacts, passage, integration.no_excitation(basis), tables, interval,
             tolerance, level, section.first * interval, z, work, local[part], results[part],
             columns, every,
         )  # fmt: skip

@@ -207,16 +207,20 @@ _STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6])
 @njit(cache=True, nogil=True, error_model="numpy")
 def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
     """Fill jacobian (4, 6, 10) by central differences with `steps` (10,)."""
-    shifted, up, down = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.empty(WHEEL_FORCES)
+    shifted, force = np.empty(LOCALS), np.empty(WHEEL_FORCES)
+    jacobian[:] = 0.0
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
         for k in range(LOCALS):
-            shifted[:] = local[LOCALS * wheel : LOCALS * (wheel + 1)]
-            shifted[k] += steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], up)
-            shifted[k] -= 2.0 * steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], down)
-            jacobian[wheel, :, k] = (up - down) / (2.0 * steps[k])
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                shifted[k] += sign * steps[k]
+                wheel_forces(
+                    contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], force
+                )
+                for i in range(WHEEL_FORCES):
+                    jacobian[wheel, i, k] += sign * force[i] / (2.0 * steps[k])
 
 
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
