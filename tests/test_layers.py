@@ -20,10 +20,11 @@ LAYERS = [
     {"stability"},
     {"self_excitation"},
     {"critical_absorber"},
-    {"sustained_vibration", "absorber", "warm_up"},
+    {"sustained_vibration", "absorber"},
     {"contact"},
     {"wear"},
     {"bogie"},
+    {"warm_up"},
 ]
 # What the pipeline uses around the model, and what each may know.
 AROUND = {

@@ -28,9 +28,11 @@ NAME_OF_CLASS = {
     "car_support": "car_body",
     "absorber": "absorber",
 }
-# The first bending mode is the one of most symmetric bending below this frequency; it bends the
-# primary suspension more than the beam, so that its own class would not name it.
+# The first bending modes are the two of most symmetric bending below this frequency; they bend the
+# primary suspension more than the beam, so that their own class would not name them.
 FIRST_BENDING_BELOW = 40.0  # Hz
+OWN_AXLE = 0.8  # a mode with more of its class's strain energy at one axle is that axle's
+ALIKE = 0.5  # axles that are less correlated do not move in or out of phase
 
 
 class Modes(NamedTuple):
@@ -38,7 +40,7 @@ class Modes(NamedTuple):
 
     eigenvalue : (k,) 1/s; shape : (n, k) displacements
     share : (k, classes, 3) of the strain energy in front axle, rear axle, elsewhere
-    name : k texts, class and axle
+    name : k texts: class, then front or rear, or how both axles move: in_phase, opposed, both_axles
     """
 
     eigenvalue: np.ndarray
@@ -72,7 +74,7 @@ def modes_of(system: System, linear: Linearisation, limits: tuple[float, float])
     shape = vectors[:k, kept]
     shape = shape / np.abs(shape).max(axis=0)
     share = strain_energy_share(system, shape)
-    return Modes(values[kept], shape, share, _names(share, frequency[kept]))
+    return Modes(values[kept], shape, share, _names(system, shape, share, frequency[kept]))
 
 
 def strain_energy_share(system: System, shape: np.ndarray) -> np.ndarray:
@@ -86,18 +88,59 @@ def strain_energy_share(system: System, shape: np.ndarray) -> np.ndarray:
     return energy / energy.sum(axis=(1, 2), keepdims=True)
 
 
-def _names(share: np.ndarray, frequency: np.ndarray) -> tuple[str, ...]:
-    names = []
-    for mode in share:
-        kind, place = np.unravel_index(np.argmax(mode), mode.shape)
-        name = NAME_OF_CLASS[ENERGY_CLASSES[kind]]
-        names.append(f"{name}_{AXLES[place]}" if place < len(AXLES) else name)
-    low = np.flatnonzero(frequency < FIRST_BENDING_BELOW)
+def _names(
+    system: System, shape: np.ndarray, share: np.ndarray, frequency: np.ndarray
+) -> tuple[str, ...]:
+    """Name modes by the class of largest strain energy in the whole vehicle, and by axle."""
+    kinds = share.sum(axis=2).argmax(axis=1)
+    words = [NAME_OF_CLASS[ENERGY_CLASSES[kind]] for kind in kinds]
     bending = ENERGY_CLASSES.index("symmetric_bending")
-    for place, axle in enumerate(AXLES):
-        if low.size:
-            names[low[np.argmax(share[low, bending, place])]] = f"first_bending_{axle}"
-    return tuple(names)
+    low = np.flatnonzero(frequency < FIRST_BENDING_BELOW)
+    for mode in low[np.argsort(share[low, bending].sum(axis=1))[-len(AXLES) :]]:
+        kinds[mode], words[mode] = bending, "first_bending"
+    return tuple(
+        word + _axle_suffix(system, shape[:, mode], share[mode, kinds[mode]])
+        for mode, word in enumerate(words)
+    )
+
+
+def _axle_suffix(system: System, shape: np.ndarray, share: np.ndarray) -> str:
+    """Tell which axle a mode with `share` (3,) of a class moves, or how both do.
+
+    On straight track the axles are nearly alike: their modes come in pairs that move both.
+    """
+    front, rear, elsewhere = share
+    if elsewhere > front + rear:
+        return ""
+    if max(front, rear) > OWN_AXLE * (front + rear):
+        return f"_{AXLES[int(rear > front)]}"
+    alike = axle_correlation(system, shape)
+    if abs(alike) < ALIKE:
+        return "_both_axles"
+    return "_in_phase" if alike > 0.0 else "_opposed"
+
+
+def of_front_axle(found: Modes, word: str) -> int | None:
+    """Index of the lowest mode whose name begins with a word and that moves the front axle."""
+    fitting = (
+        k for k, name in enumerate(found.name) if name.startswith(word) and name != f"{word}_rear"
+    )
+    return next(fitting, None)
+
+
+def axle_correlation(system: System, shape: np.ndarray) -> float:
+    """Correlation of the motions of both axles with their rims in a mode, -1 .. 1; by mass."""
+    names, k = system.vehicle.names, system.size
+    front, rear = (
+        [i for i, name in enumerate(names[:k]) if name.startswith(f"{axle}_")] for axle in AXLES
+    )
+    mass = system.vehicle.mass[np.ix_(front, front)]
+
+    def product(a: np.ndarray, b: np.ndarray) -> float:
+        return float((a.conj() @ mass @ b).real)
+
+    a, b = shape[front], shape[rear]
+    return product(a, b) / np.sqrt(product(a, a) * product(b, b))
 
 
 class Critical(NamedTuple):

@@ -23,6 +23,7 @@ from tramdva.contact import patch
 
 DESIGNS = ("none", "paper", "tuned")
 ZONES = ("tread", "flange")
+SHAPES = ("first_bending", "second_bending", "third_bending", "resilient_wheel")  # shown
 CONTACT_VARIABLES = {
     "normal_force": patch.NORMAL_FORCE,
     "contact_angle": patch.CONTACT_ANGLE,
@@ -185,24 +186,34 @@ def _absorber_map(cfg, line: BogieLine, none: Running, limits) -> dict[str, np.n
 
 
 def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
-    """Motion of both axles in their named modes at the operating friction."""
+    """Motion of the front axle in the modes of `SHAPES` at the operating friction.
+
+    A mode that is not there keeps its word as name, and NaN.
+    """
     found = modal.modes(none.curve, none.equilibrium.state, shown)
-    wanted = ("first_bending", "second_bending", "third_bending", "resilient_wheel")
-    names = [f"{name}_front" for name in wanted]
-    chosen = [found.name.index(name) if name in found.name else -1 for name in names]
     positions, motion = modal.axle_points(none.curve, "front")
-    k = none.curve.size
-    shape = np.array([motion[..., :k] @ found.shape[:, i] for i in chosen])
-    shape = shape / np.abs(shape[:, :, :3]).max(axis=(1, 2), keepdims=True)
+    k, count = none.curve.size, len(SHAPES)
+    names, numbers = list(SHAPES), np.full((2, count), np.nan)
+    shape = np.full((count, *motion.shape[:2]), np.nan, dtype=complex)
+    energy = np.full((count, len(ENERGY_CLASSES)), np.nan)
+    for row, word in enumerate(SHAPES):
+        mode = modal.of_front_axle(found, word)
+        if mode is None:
+            continue
+        moved = motion[..., :k] @ found.shape[:, mode]
+        names[row] = found.name[mode]
+        numbers[:, row] = found.frequency[mode], found.damping_ratio[mode]
+        shape[row] = moved / np.abs(moved[:, :3]).max()
+        energy[row] = found.share[mode].sum(axis=1)
     return {
         "shape_mode": np.array(names),
-        "shape_frequency": found.frequency[chosen],
-        "shape_damping_ratio": found.damping_ratio[chosen],
+        "shape_frequency": numbers[0],
+        "shape_damping_ratio": numbers[1],
         "point_position": positions,
         "shape_real": shape.real,
         "shape_imag": shape.imag,
         "energy_class": np.array(ENERGY_CLASSES),
-        "strain_energy_share": found.share[chosen].sum(axis=2),
+        "strain_energy_share": energy,
     }
 
 
