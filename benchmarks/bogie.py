@@ -76,7 +76,8 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
     local = np.empty((count, 40))
     results = np.empty((count, 4, len(known.curve.contacts.tables), 1))
     integration.run(
-        basis, known.curve.contacts, integration.steady(basis, known.curve.curvatures),
+        basis.contact, known.curve.contacts,
+        integration.steady(basis.eigenvalue.size, known.curve.curvatures),
         integration.no_excitation(basis, known.curve.contacts),
         integration.step_table(basis.eigenvalue, interval),
         interval, 1e9, 0, 0.0, z, integration.workspace(known.curve.contacts), local, results,

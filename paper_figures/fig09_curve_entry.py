@@ -12,7 +12,7 @@ from tramdva.figures import MILLI
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LOOKS = (
     {"color": "C1", "linewidth": 0.4},  # without absorber, as in the paper
-    {"color": "0.55", "linewidth": 0.6},  # with the line's absorber, as in the paper
+    {"color": "0.35", "linewidth": 0.7},  # with the line's absorber, as in the paper
     {"color": "C2", "linewidth": 0.6},
 )
 WHEEL = "front_inner"

@@ -26,7 +26,7 @@ LAYERS = [
     {"stability"},
     {"self_excitation"},
     {"critical_absorber"},
-    {"sustained_vibration", "absorber", "warm_up"},
+    {"sustained_vibration", "absorber"},
     {"contact"},
     {"wear"},
     {"wear_derivative", "wear_history"},
@@ -34,6 +34,7 @@ LAYERS = [
     {"evolution"},
     {"evolution_stages"},
     {"tendency_maps"},
+    {"warm_up"},
 ]
 # What the pipeline uses around the model, and what each may know.
 AROUND = {

@@ -16,7 +16,11 @@ STATE = np.array([4.5e-3, 3e-3, 36e3, 0.3, 0.01, 0.048, -1.2])
 def area_of(state: np.ndarray, cells: int, chart: wear.WearChart, speed: float = SPEED) -> float:
     history = wear_history.ContactHistory(*(np.array([value]) for value in state))
     grid = fastsim.patch_grid(cells, cells)
-    return float(wear_history.passages(history, LAW, grid, speed, chart).area[0])
+    return float(
+        wear_history.passages(
+            history, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart
+        ).area[0]
+    )
 
 
 @pytest.mark.parametrize("method", ["chart", "smoothed", "constant"])
@@ -88,7 +92,14 @@ def test_full_sliding_wears_by_load_times_slip():
 def test_apart_there_is_no_wear():
     history = wear_history.ContactHistory(*np.vstack([STATE, STATE]).T)
     history.normal_force[1] = 0.0
-    found = wear_history.passages(history, LAW, fastsim.patch_grid(8, 8), SPEED, wear.WearChart())
+    found = wear_history.passages(
+        history,
+        LAW.kalker_table,
+        LAW.shear_modulus,
+        fastsim.patch_grid(8, 8),
+        SPEED,
+        wear.WearChart(),
+    )
     assert found.area[0] > 0.0
     assert found.area[1] == 0.0
     np.testing.assert_allclose(found.shares.sum(axis=1), [1.0, 0.0])

@@ -124,7 +124,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_linearisation_paper": (*_ROUGH_BOGIE, "bogie.absorber"),
     "bogie_linearisation_tuned": (*_ROUGH_BOGIE, *_ABSORBER_TO_TUNE),
     "bogie_simulation": ("out_of_roundness", "numerics.bogie_simulation"),
-    "wear": ("wear", "contact_geometry.material", "numerics.wear"),
+    "wear": ("wear", "numerics.wear"),
     "evolution_tendency": (
         "wear",
         "out_of_roundness.wheels",

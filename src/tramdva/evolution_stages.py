@@ -8,7 +8,7 @@ import numpy as np
 from tramdva import evolution
 from tramdva.bogie.rough_wheel_files import StoredBogie, stored_bogie
 from tramdva.bogie.vehicle import WHEELS
-from tramdva.contact import fastsim, patch
+from tramdva.contact import fastsim
 from tramdva.out_of_roundness import level, radius_deviation
 from tramdva.wear import WearChart
 from tramdva.wear_history import AREAS, ContactHistory, depth_around, passages, wear_orders
@@ -29,7 +29,7 @@ def wear(cfg: Mapping[str, Any], simulation: Mapping[str, np.ndarray]) -> dict[s
 
     Parameters
     ----------
-    cfg : sections ``wear``, ``contact_geometry.material``, ``numerics``
+    cfg : sections ``wear`` and ``numerics``
     simulation : variables of ``bogie_simulation``
 
     Returns
@@ -73,8 +73,7 @@ def wear(cfg: Mapping[str, Any], simulation: Mapping[str, np.ndarray]) -> dict[s
 def _worn_wheel(cfg, simulation, wheel: int, count: int) -> dict[str, Any]:
     """Orders of the depth (m), width (m), shares (k, 5) and change of region of a wheel."""
     chart, grid = wear_chart(cfg), wear_grid(cfg)
-    material = cfg["contact_geometry"]["material"]
-    law = patch.contact_law(0.0, 0.0, 0.0, material["youngs_modulus"], material["poisson_ratio"])
+    table, shear_modulus = simulation["kalker_table"], float(simulation["shear_modulus"])
     speed = float(simulation["rolling_speed"][wheel])
     radius = float(simulation["wheel_radius"] * speed / simulation["speed"])
     orders, shares, weight, width = 0.0, 0.0, 0.0, 0.0
@@ -82,7 +81,7 @@ def _worn_wheel(cfg, simulation, wheel: int, count: int) -> dict[str, Any]:
         history = ContactHistory(
             *(simulation[name][wheel, zone] for name in ContactHistory._fields)
         )
-        found = passages(history, law, grid, speed, chart)
+        found = passages(history, table, shear_modulus, grid, speed, chart)
         angle = simulation["wheel_angle"] + simulation["forward_shift"][wheel, zone] / radius
         orders = orders + wear_orders(found.area, angle, count)
         load = np.maximum(history.normal_force, 0.0)[:, None]

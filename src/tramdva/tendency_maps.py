@@ -99,7 +99,7 @@ def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str
 
 def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
     """Largest growth rate in 1/s of the oscillations in a band; NaN if there are none."""
-    value = bogie.basis.eigenvalue
+    value = bogie.eigenvalue
     frequency = value.imag / (2.0 * np.pi)
     inside = (frequency >= band["min"]) & (frequency <= band["max"])
     return float(value.real[inside].max()) if inside.any() else np.nan

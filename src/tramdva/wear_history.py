@@ -7,7 +7,6 @@ from numba import njit
 
 from tramdva.contact import kalker, traction_field
 from tramdva.contact.fastsim import PatchGrid
-from tramdva.contact.patch import ContactLaw
 from tramdva.wear import REGIONS, WearChart, archard_depth, region_areas
 
 AREAS = (*REGIONS, "adhesion")
@@ -56,7 +55,8 @@ def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, 
 
 def passages(
     history: ContactHistory,
-    law: ContactLaw,
+    kalker_table: np.ndarray,
+    shear_modulus: float,
     grid: PatchGrid,
     rolling_speed: float,
     chart: WearChart,
@@ -66,7 +66,7 @@ def passages(
     Parameters
     ----------
     history : ContactHistory
-    law : ContactLaw, of its material
+    kalker_table : of `kalker`; shear_modulus : Pa
     grid : PatchGrid, cells of the patch
     rolling_speed : m/s
     chart : WearChart
@@ -76,7 +76,7 @@ def passages(
     out = np.zeros(count), np.zeros((count, len(AREAS)))
     field = traction_field.empty_field(grid)
     _passages(
-        values, law.kalker_table, law.shear_modulus, grid, field, float(rolling_speed),
+        values, kalker_table, shear_modulus, grid, field, float(rolling_speed),
         chart.as_array(), out,
     )  # fmt: skip
     return Passages(*out)

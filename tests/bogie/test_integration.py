@@ -36,8 +36,8 @@ class Run:
         zones = len(self.system.contacts.tables)
         results = np.empty((count, 4, zones, len(integration.RECORDED)))
         _, status, _, _ = integration.run(
-            self.basis, self.system.contacts,
-            integration.steady(self.basis, self.system.curvatures),
+            self.basis.contact, self.system.contacts,
+            integration.steady(self.basis.eigenvalue.size, self.system.curvatures),
             excitation or integration.no_excitation(self.basis, self.system.contacts),
             integration.step_table(self.basis.eigenvalue, interval), interval, tolerance, 0, 0.0,
             z, self.work, local, results, np.array(integration.RECORDED), 1,

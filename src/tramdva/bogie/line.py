@@ -67,11 +67,6 @@ def bogie_line(cfg: Mapping[str, Any], tables: Mapping[str, np.ndarray]) -> Bogi
     )
 
 
-def with_friction_decrease(line: BogieLine, B: float) -> BogieLine:
-    """Return the line with another friction decrease B in s/m."""
-    return line._replace(friction=(*line.friction[:2], B))
-
-
 def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
     """Absorber of the line with a stiffness and damping; None where these are NaN."""
     if np.isnan(c_T):

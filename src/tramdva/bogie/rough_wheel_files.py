@@ -1,20 +1,19 @@
 """The linearised bogie with wheels out of round as variables of a file, and back."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tramdva.bogie import running
-from tramdva.bogie.integration import ModalBasis
+from tramdva.bogie.integration import ModalContacts
 from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.vehicle import AXLE_OF_WHEEL, SIDE, WHEELS
-from tramdva.contact import patch
+from tramdva.contact import fastsim, patch
 from tramdva.contact.geometry import ContactTable
 
 TABLE_FIELDS = ContactTable._fields
 ZONES = ("tread", "flange")
-_LAW = ("mu_0", "A", "B", "youngs_modulus", "poisson_ratio", "cells_along", "strips")
 _PLACES = ("lateral_position", "tape_circle", "rail", "speed")
 
 
@@ -44,24 +43,28 @@ def zone_names(count: int) -> list[str]:
     return [ZONES[k] if k < len(ZONES) else f"zone_{k + 1}" for k in range(count)]
 
 
-def variables(bogie: RoughBogie, places: running.WheelPlaces, law: Mapping[str, Any]) -> dict:
-    """Variables of ``bogie_linearisation``; `law` holds the numbers named in the registry."""
-    basis, sensitivity = bogie.basis, bogie.sensitivity
+def variables(
+    bogie: RoughBogie, contacts: running.Contacts, wheel_radius: float, grid: tuple[int, int]
+) -> dict[str, np.ndarray]:
+    """Variables of ``bogie_linearisation``; `grid`: cells along and strips of the patch."""
+    places, law = contacts.places, contacts.law
+    sensitivity = bogie.sensitivity
     return {
         "wheel": np.array(WHEELS),
         "zone": np.array(zone_names(bogie.results.shape[1])),
         **{name: np.asarray(getattr(places, name), float) for name in _PLACES},
-        "wheel_radius": np.float64(places.speed / places.spin_rate),
-        **{name: np.float64(law[name]) for name in _LAW},
+        "wheel_radius": np.float64(wheel_radius),
+        "friction": np.array(law.friction),
+        "modulus": np.float64(law.modulus),
+        "shear_modulus": np.float64(law.shear_modulus),
+        "hertz_table": law.hertz_table,
+        "kalker_table": law.kalker_table,
+        "patch_cells": np.array(grid, float),
         "rolling_speed": bogie.rolling_speed,
         "curvature": bogie.curvatures,
-        "eigenvalue_real": basis.eigenvalue.real,
-        "eigenvalue_imag": basis.eigenvalue.imag,
-        "output": basis.output,
-        "forcing": basis.forcing,
-        "local": basis.local,
-        "force": basis.force,
-        "jacobian": basis.jacobian,
+        "eigenvalue_real": bogie.eigenvalue.real,
+        "eigenvalue_imag": bogie.eigenvalue.imag,
+        **bogie.modal._asdict(),
         "contact": bogie.results,
         "contact_per_local": sensitivity.local,
         "contact_per_deviation": sensitivity.deviation,
@@ -71,12 +74,7 @@ def variables(bogie: RoughBogie, places: running.WheelPlaces, law: Mapping[str, 
 
 def stored_bogie(values: Mapping[str, np.ndarray]) -> StoredBogie:
     """Linearised bogie from the variables of its file."""
-    empty = np.zeros((0, 0))
-    basis = ModalBasis(
-        values["eigenvalue_real"] + 1j * values["eigenvalue_imag"],
-        np.zeros(0), empty, empty, empty,
-        values["output"], values["forcing"], values["local"], values["force"], values["jacobian"],
-    )  # fmt: skip
+    modal = ModalContacts(*(values[name] for name in ModalContacts._fields))
     sensitivity = running.RadiusSensitivity(
         values["contact_per_local"], values["contact_per_deviation"], values["force_per_deviation"]
     )
@@ -90,10 +88,23 @@ def stored_bogie(values: Mapping[str, np.ndarray]) -> StoredBogie:
         speed,
         speed / radius,
     )
-    law = patch.contact_law(
-        *(float(values[name]) for name in _LAW[:5]), *(int(values[name]) for name in _LAW[5:])
+    law = patch.ContactLaw(
+        values["hertz_table"],
+        values["kalker_table"],
+        float(values["modulus"]),
+        float(values["shear_modulus"]),
+        tuple(map(float, values["friction"])),
+        (1.0, 1.0),
+        0.0,
+        patch.FASTSIM,
+        fastsim.patch_grid(*map(int, values["patch_cells"])),
     )
     bogie = RoughBogie(
-        basis, values["curvature"], values["contact"], sensitivity, values["rolling_speed"]
+        values["eigenvalue_real"] + 1j * values["eigenvalue_imag"],
+        modal,
+        values["curvature"],
+        values["contact"],
+        sensitivity,
+        values["rolling_speed"],
     )
     return StoredBogie(bogie, law, places, radius)

@@ -13,7 +13,7 @@ import numpy as np
 
 from tramdva.bogie import running
 from tramdva.bogie.curving import Equilibrium, System
-from tramdva.bogie.integration import Excitation, ModalBasis, modal_basis
+from tramdva.bogie.integration import Excitation, ModalContacts, modal_basis
 from tramdva.bogie.vehicle import WHEELS
 from tramdva.contact import patch
 
@@ -21,14 +21,16 @@ from tramdva.contact import patch
 class RoughBogie(NamedTuple):
     """Vehicle in its curving equilibrium and what it answers to small radius deviations.
 
-    basis : ModalBasis
+    eigenvalue : (m,) complex, 1/s, of the vehicle's modes; one of each pair
+    modal : integration.ModalContacts, the contacts in these modes
     curvatures : (3,) in 1/m per frame
     results : (4, zones, patch.RESULTS) of the contacts in equilibrium
     sensitivity : running.RadiusSensitivity
     rolling_speed : (4,) m/s, of each wheel along its rail
     """
 
-    basis: ModalBasis
+    eigenvalue: np.ndarray
+    modal: ModalContacts
     curvatures: np.ndarray
     results: np.ndarray
     sensitivity: running.RadiusSensitivity
@@ -45,8 +47,10 @@ def rough_bogie(system: System, equilibrium: Equilibrium) -> RoughBogie:
     places = system.contacts.places
     local = system.local(equilibrium.state)
     curvature = system.curvatures[places.axle]
+    basis = modal_basis(system, equilibrium)
     return RoughBogie(
-        modal_basis(system, equilibrium),
+        basis.eigenvalue,
+        basis.contact,
         system.curvatures,
         equilibrium.results[..., : patch.RESULTS],
         running.radius_sensitivity(system.contacts, system.curvatures, local),
@@ -94,7 +98,7 @@ def excitation(
         lead,
         np.array([local.real, local.imag]),
         np.array([force.real, force.imag]),
-        np.zeros(2 * bogie.basis.eigenvalue.size),
+        np.zeros(2 * bogie.eigenvalue.size),
     )
 
 
@@ -124,10 +128,10 @@ def local_response(
     -----
     A modal state turns as z_1 exp(i w t) + conj(z_2) exp(-i w t).
     """
-    basis, m = bogie.basis, bogie.basis.eigenvalue.size
-    packed = deviation_forces(bogie, angular_frequency, source) @ basis.forcing
+    modal, m = bogie.modal, bogie.eigenvalue.size
+    packed = deviation_forces(bogie, angular_frequency, source) @ modal.forcing
     turn = 1j * angular_frequency[:, None]
-    first = 0.5 * (packed[:, :m] + 1j * packed[:, m:]) / (turn - basis.eigenvalue)
-    second = 0.5 * (packed[:, :m] - 1j * packed[:, m:]) / (turn - basis.eigenvalue.conj())
-    output = basis.output[:m] - 1j * basis.output[m:]
+    first = 0.5 * (packed[:, :m] + 1j * packed[:, m:]) / (turn - bogie.eigenvalue)
+    second = 0.5 * (packed[:, :m] - 1j * packed[:, m:]) / (turn - bogie.eigenvalue.conj())
+    output = modal.output[:m] - 1j * modal.output[m:]
     return first @ output + second @ output.conj()

@@ -208,17 +208,21 @@ _STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6])
 @njit(cache=True, nogil=True, error_model="numpy")
 def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
     """Fill jacobian (4, 6, 10) by central differences with `steps` (10,)."""
-    shifted, up, down = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.empty(WHEEL_FORCES)
+    shifted, force = np.empty(LOCALS), np.empty(WHEEL_FORCES)
     zero = np.zeros(len(contacts.tables))
+    jacobian[:] = 0.0
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
         for k in range(LOCALS):
-            shifted[:] = local[LOCALS * wheel : LOCALS * (wheel + 1)]
-            shifted[k] += steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, zero, zero, scratch, results[0], up)
-            shifted[k] -= 2.0 * steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, zero, zero, scratch, results[0], down)
-            jacobian[wheel, :, k] = (up - down) / (2.0 * steps[k])
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                shifted[k] += sign * steps[k]
+                wheel_forces(
+                    contacts, wheel, curvature, shifted, zero, zero, scratch, results[0], force
+                )
+                for i in range(WHEEL_FORCES):
+                    jacobian[wheel, i, k] += sign * force[i] / (2.0 * steps[k])
 
 
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
@@ -269,45 +273,42 @@ class RadiusSensitivity(NamedTuple):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _sensitivity(contacts, curvatures, local, steps, deviation_steps, scratch, results, out):
-    """Fill the three arrays `out` of a `RadiusSensitivity` by central differences."""
+def _sensitivity(contacts, curvatures, local, steps, scratch, results, out):
+    """Fill the arrays `out` of a `RadiusSensitivity` by central differences with `steps` (12,).
+
+    Variable k of 0 to 9 is local, 10 and 11 are radius deviation and rate, zone by zone.
+    """
     by_local, by_deviation, by_force = out
     zones = len(contacts.tables)
-    shifted, up, down = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.empty(WHEEL_FORCES)
-    radius = np.zeros((2, zones))
-    columns = patch.RESULTS
+    shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
-        shifted[:] = local[LOCALS * wheel : LOCALS * (wheel + 1)]
-        for k in range(LOCALS):
-            at = shifted[k]
-            shifted[k] = at + steps[k]
-            wheel_forces(
-                contacts, wheel, curvature, shifted, radius[0], radius[1], scratch, results[0], up
-            )
-            shifted[k] = at - steps[k]
-            wheel_forces(
-                contacts, wheel, curvature, shifted, radius[0], radius[1], scratch, results[1], down
-            )
-            shifted[k] = at
-            difference = results[0, :, :columns] - results[1, :, :columns]
-            by_local[wheel, :, :, k] = difference / (2.0 * steps[k])
-        for zone in range(zones):
-            for k in range(2):
-                radius[k, zone] = deviation_steps[k]
+        for case in range(LOCALS + 2 * zones):
+            k = case if case < LOCALS else LOCALS + (case - LOCALS) // zones
+            zone = (case - LOCALS) % zones
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                for j in range(zones):
+                    radius[0, j] = radius[1, j] = 0.0
+                if k < LOCALS:
+                    shifted[k] += sign * steps[k]
+                else:
+                    radius[k - LOCALS, zone] = sign * steps[k]
                 wheel_forces(
                     contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
-                    results[0], up,
+                    results[0], force,
                 )  # fmt: skip
-                radius[k, zone] = -deviation_steps[k]
-                wheel_forces(
-                    contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
-                    results[1], down,
-                )  # fmt: skip
-                radius[k, zone] = 0.0
-                difference = results[0, zone, :columns] - results[1, zone, :columns]
-                by_deviation[wheel, zone, :, k] = difference / (2.0 * deviation_steps[k])
-                by_force[wheel, zone, :, k] = (up - down) / (2.0 * deviation_steps[k])
+                scale = sign / (2.0 * steps[k])
+                for c in range(patch.RESULTS):
+                    if k < LOCALS:
+                        for j in range(zones):
+                            by_local[wheel, j, c, k] += scale * results[0, j, c]
+                    else:
+                        by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
+                if k >= LOCALS:
+                    for i in range(WHEEL_FORCES):
+                        by_force[wheel, zone, i, k - LOCALS] += scale * force[i]
 
 
 def radius_sensitivity(
@@ -321,6 +322,6 @@ def radius_sensitivity(
         np.zeros((4, zones, patch.RESULTS, 2)),
         np.zeros((4, zones, WHEEL_FORCES, 2)),
     )
-    steps = scale * np.array(_DEVIATION_STEPS)
-    _sensitivity(contacts, curvatures, local, scale * _STEPS, steps, scratch, results, tuple(out))
+    steps = scale * np.append(_STEPS, _DEVIATION_STEPS)
+    _sensitivity(contacts, curvatures, local, steps, scratch, results, tuple(out))
     return out

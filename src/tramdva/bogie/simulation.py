@@ -77,7 +77,7 @@ def simulate_wave(
     """
     speed = contacts.places.speed
     excited = excitation(bogie, wheel_radius, order, speed, amplitude, wheels)
-    z = np.zeros(2 * bogie.basis.eigenvalue.size)
+    z = np.zeros(2 * bogie.eigenvalue.size)
     turn = 2.0 * np.pi * wheel_radius / speed
     finest = settings.step_tolerance * abs(amplitude) * excited.angular_frequency
     one = _Revolution(contacts, bogie, excited, turn, settings.samples, finest)
@@ -115,8 +115,8 @@ class _Revolution:
         self.contacts, self.bogie, self.excited = contacts, bogie, excited
         self.turn, self.samples, self.contact_lost = turn, samples, False
         self.interval = turn / samples
-        self.passage = integration.steady(bogie.basis, bogie.curvatures)
-        self.tables = integration.step_table(bogie.basis.eigenvalue, self.interval)
+        self.passage = integration.steady(bogie.eigenvalue.size, bogie.curvatures)
+        self.tables = integration.step_table(bogie.eigenvalue, self.interval)
         self.tolerance = tolerance
         self.work, self.level = integration.workspace(contacts), 0
 
@@ -126,7 +126,7 @@ class _Revolution:
         local = np.empty((self.samples, 4 * running.LOCALS))
         results = np.empty((self.samples, 4, len(self.contacts.tables), columns.size))
         self.level, status, _, _ = integration.run(
-            self.bogie.basis, self.contacts, self.passage, self.excited, self.tables,
+            self.bogie.modal, self.contacts, self.passage, self.excited, self.tables,
             self.interval, self.tolerance, self.level, number * self.turn, z, self.work, local,
             results, columns, 1,
         )  # fmt: skip

@@ -82,6 +82,8 @@ def _variables(
         "zone": values["zone"],
         "speed": values["speed"],
         "wheel_radius": values["wheel_radius"],
+        "kalker_table": stored.law.kalker_table,
+        "shear_modulus": np.float64(stored.law.shear_modulus),
         "rolling_speed": stored.bogie.rolling_speed[chosen],
         "amplitude_real": np.float64(amplitude.real),
         "amplitude_imag": np.float64(amplitude.imag),

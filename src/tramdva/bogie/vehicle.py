@@ -320,6 +320,23 @@ def _add_absorber(sums: _Assembly, layout: _Layout, absorber, wheel: int) -> Non
     sums.damping += absorber.d_T * np.outer(relative, relative)
 
 
+def with_absorber_values(vehicle: Vehicle, before, c_T: float, d_T: float) -> Vehicle:
+    """Return the vehicle with another stiffness and damping of its absorbers.
+
+    Parameters
+    ----------
+    vehicle : Vehicle built with the absorber `before` (bogie_parameters.BogieAbsorber)
+    c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
+    """
+    parts = {key: part for key, part in vehicle.strain.items() if key[0] == "absorber"}
+    unit = sum(parts.values()) / before.c_T
+    return vehicle._replace(
+        stiffness=vehicle.stiffness + (c_T - before.c_T) * unit,
+        damping=vehicle.damping + (d_T - before.d_T) * unit,
+        strain=vehicle.strain | {key: c_T / before.c_T * part for key, part in parts.items()},
+    )
+
+
 def _frame_motion(layout: _Layout, bogie, absorber) -> tuple[np.ndarray, np.ndarray]:
     """Motion of the coordinates with their frames (n, 9), and with a rise of everything (n,)."""
     out, rise = np.zeros((layout.size, 9)), np.zeros(layout.size)
