@@ -65,8 +65,8 @@ def energy_after_blow(conservative, direction, speed: float, interval: float):
     for _ in range(round(DURATION / interval)):
         integration.run(
             basis.contact, contacts, integration.steady(basis.eigenvalue.size, system.curvatures),
-            integration.no_excitation(basis, contacts), tables, interval, 1e9, 0, 0.0, z, work, local,
-            results, columns, 1,
+            integration.no_excitation(basis, contacts), tables, interval, 1e9, 0, 0.0, z, work,
+            local, results, columns, 1,
         )  # fmt: skip
         found.append(energies(system, integration.vehicle_state(basis, z)))
     smooth, contact, constant = map(np.array, zip(*found, strict=True))
