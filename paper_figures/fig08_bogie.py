@@ -61,16 +61,19 @@ def draw(bogie: dict) -> Figure:
     return figure
 
 
-def dimension(axes: Axes, start: tuple[float, float], end: tuple[float, float], word: str) -> None:
-    """Draw a dimension line with its length in mm between two points (m)."""
-    axes.annotate("", end, start, arrowprops={"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0,
-                                              "shrinkB": 0})  # fmt: skip
-    upright = start[0] == end[0]
+def dimension(
+    axes: Axes, start: tuple[float, float], end: tuple[float, float], word: str, beside: float = 0.0
+) -> None:
+    """Draw a dimension line with its length in mm between two points, its text `beside` it (m)."""
+    axes.annotate(
+        "", end, start,
+        arrowprops={"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0},
+    )  # fmt: skip
     axes.text(
-        0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1]),
-        f"{word} {1e3 * np.hypot(end[0] - start[0], end[1] - start[1]):.0f}".strip(),
-        ha="center", va="center", fontsize="small", rotation=90 if upright else 0,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8}, zorder=7,
+        0.5 * (start[0] + end[0]) + beside, 0.5 * (start[1] + end[1]),
+        f"{word} {1e3 * np.hypot(end[0] - start[0], end[1] - start[1]):.0f} mm",
+        ha="left" if beside else "center", va="center", fontsize="small", zorder=7,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
     )  # fmt: skip
 
 
@@ -101,9 +104,9 @@ def block(axes: Axes, x: float, y: float) -> None:
 
 
 def levels(bogie: dict) -> tuple[float, float, float]:
-    """Heights (m) of the axle bridge's middle, of the frame and of the car's floor."""
+    """Heights (m) of the axle bridge's middle, and of frame and floor clear of their springs."""
     bottom = bogie["wheel"]["radius"] - bogie["axle"]["drop"]
-    return bottom, bogie["frame"]["height"], bogie["secondary"]["height"] + 0.1
+    return bottom, bogie["primary"]["height"] + 0.08, bogie["secondary"]["height"] + 0.1
 
 
 def behind(axes: Axes, bogie: dict) -> None:
@@ -119,16 +122,16 @@ def behind(axes: Axes, bogie: dict) -> None:
         axes.add_patch(Rectangle((side_ * half - TREAD / 2, 0), TREAD, 2 * radius, **RIM))
         axes.plot([side_ * end, side_ * end, side_ * half], [bottom, radius, radius], **AXLE)
         y = side_ * primary["lateral_position"]
-        spring(axes, (y, primary["height"]), (y, frame), PRIMARY)
+        spring(axes, (y, radius), (y, frame), PRIMARY)
         y = side_ * secondary["lateral_position"]
         spring(axes, (y, frame + 0.07), (y, floor), SECONDARY)
         block(axes, side_ * absorber["lateral_position"], absorber["height"])
     axes.plot([-end, end], [bottom, bottom], **AXLE)
-    dimension(axes, (-half, -0.19), (half, -0.19), "")
+    dimension(axes, (-half, -0.19), (half, -0.19), "wheels")
     place = absorber["lateral_position"]
     dimension(axes, (-place, -0.08), (place, -0.08), "absorbers")
-    dimension(axes, (0.0, bottom), (0.0, radius), "")
-    axes.plot([-0.06, 0.06], [radius, radius], color="0.4", linewidth=0.6)
+    axes.plot([-half, half], [radius, radius], color="0.4", linewidth=0.5, linestyle="-.")
+    dimension(axes, (-0.25, bottom), (-0.25, radius), "drop", 0.04)
 
 
 def side(axes: Axes, bogie: dict) -> None:
@@ -143,14 +146,12 @@ def side(axes: Axes, bogie: dict) -> None:
         axes.add_patch(Circle((x, radius), radius, **RIM))
         axes.add_patch(Circle((x, radius), 0.72 * radius, facecolor="white", edgecolor="0.4"))
         axes.plot([x, x], [bottom, radius], **AXLE)
-        spring(axes, (x, bogie["primary"]["height"]), (x, frame), PRIMARY)
+        spring(axes, (x, radius), (x, frame), PRIMARY)
         block(axes, x, absorber["height"])
     dimension(axes, (-a, -0.12), (a, -0.12), "wheelbase")
-    dimension(axes, (-a - radius - 0.07, 0.0), (-a - radius - 0.07, 2 * radius), "")
-    axes.annotate(
-        "", (0.3, 0.2), (-0.3, 0.2), arrowprops={"arrowstyle": "-|>", "color": "0.3"}
-    )  # fmt: skip
-    axes.text(0.0, 0.23, "running direction", ha="center", va="bottom", fontsize="small")
+    dimension(axes, (-a + radius + 0.05, 0.0), (-a + radius + 0.05, radius), "radius", 0.03)
+    axes.annotate("", (0.35, 0.3), (-0.05, 0.3), arrowprops={"arrowstyle": "-|>", "color": "0.3"})
+    axes.text(0.15, 0.32, "running direction", ha="center", va="bottom", fontsize="small")
 
 
 def plan(axes: Axes, bogie: dict) -> None:

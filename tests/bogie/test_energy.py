@@ -78,19 +78,29 @@ def energy_after_blow(conservative, direction, speed: float, interval: float):
     return (total - total[0]) / blow, (counted - counted[0]) / blow
 
 
-def test_energy_of_a_vertical_blow_is_kept_in_the_order_of_the_scheme(conservative):
+def test_energy_of_a_vertical_blow_is_kept(conservative):
     rise = conservative[0].vehicle.rise
-    steps = (2e-3, 1e-3, 5e-4, 1.25e-4)
-    ends = [energy_after_blow(conservative, rise, 0.01, h)[0][-1] for h in steps]
-    errors = np.abs(np.array(ends[:-1]) - ends[-1])
-    print(errors, np.log2(errors[:-1] / errors[1:]))
-    total, _ = energy_after_blow(conservative, rise, 0.01, 2.5e-4)
+    total, _ = energy_after_blow(conservative, rise, 0.03, 1.25e-4)
     assert np.abs(total).max() < 1e-4
 
 
 def test_energy_of_a_lateral_blow_is_kept(conservative):
-    """The contact wanders over the profiles: here the Hertzian constant's work matters."""
-    lateral = conservative[0].vehicle.frame_motion[:, track.LATERAL :: 3].sum(axis=1)
-    total, counted = energy_after_blow(conservative, lateral, 0.02, 2.5e-4)
-    assert np.abs(total).max() < 3e-3
-    assert np.abs(counted).max() < 1.5e-4
+    """The contacts wander over the profiles: here the work of the constants shows."""
+    total, counted = energy_after_blow(conservative, lateral(conservative), 0.03, 1.25e-4)
+    assert np.abs(total).max() < 2e-3
+    # Left over: a zone that begins to touch has no constant before; tables, not exact profiles.
+    assert np.abs(counted).max() < 1e-4
+
+
+def test_energy_converges_with_the_order_of_the_scheme(conservative):
+    steps = (4e-3, 2e-3, 1e-3, 1.25e-4)
+    ends = [
+        energy_after_blow(conservative, lateral(conservative), 0.03, step)[0][-1] for step in steps
+    ]
+    errors = np.abs(np.array(ends[:-1]) - ends[-1])
+    assert (np.log2(errors[:-1] / errors[1:]) > 3.5).all()
+
+
+def lateral(conservative) -> np.ndarray:
+    """Motion of everything to the left."""
+    return conservative[0].vehicle.frame_motion[:, track.LATERAL :: 3].sum(axis=1)
