@@ -101,7 +101,11 @@ USERS = {
     "wear": ["wear", "evolution_tendency", "tendency_maps"],
     "study.evolution_tendency": ["evolution_tendency", "tendency_maps"],
     "study.tendency_maps": ["tendency_maps"],
-    "study.tendency_maps.design_band": ["tendency_maps", "tendency_design_chart"],
+    "study.tendency_maps.design_band": [
+        "tendency_maps",
+        "tendency_design_chart",
+        "worn_wheels",
+    ],
     "study.bogie_modes": ["bogie_modes"],
     "study.bogie_modes.frequency": ["curving_equilibrium", "bogie_modes"],
     "study.curve_entry": ["curve_entry"],

@@ -154,7 +154,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_stability": (*_FIGURE, "creep_force.B"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
     "fig10_evolution_tendency": _FIGURE,
-    "worn_wheels": _FIGURE,
+    "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
     "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
     "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
 }
