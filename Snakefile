@@ -3,7 +3,7 @@
 from functools import partial
 from pathlib import Path
 
-from tramdva import job
+from tramdva import inventory, job, supervision
 from tramdva.config import load_or_exit, stage
 from tramdva.provenance import code_hash, use_numba_cache
 
@@ -22,6 +22,8 @@ configuration = load_or_exit(
 LINES = configuration.run.lines
 values = partial(stage, configuration)
 use_numba_cache()
+if supervision.enter_folder(as_job=not workflow.is_main_process):
+    inventory.set_aside_unusable(configuration, SCRIPTS)
 
 
 report: "workflow/report/workflow.rst"
@@ -32,6 +34,7 @@ wildcard_constraints:
 
 
 onstart:
+    supervision.begin_run("results", "paper_figures")
     print(
         f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
     )

@@ -33,11 +33,13 @@ AROUND = {
     "registry": set(),
     "strict_yaml": set(),
     "provenance": set(),
-    "job": set(),
+    "supervision": set(),
+    "job": {"supervision"},
     "schema": {"parameters"},
     "slips": {"parameters", "schema"},
     "config": {"parameters", "schema", "slips", "strict_yaml"},
-    "results": {"registry"},
+    "results": {"registry", "supervision"},
+    "inventory": {"config", "provenance", "results", "supervision"},
     "figures": {"results"},
 }
 READS_PROFILES = "contact.measured_profile"
@@ -50,6 +52,8 @@ TOUCH_THE_DISK = {
     "results",
     "provenance",
     "job",
+    "supervision",
+    "inventory",
 }
 
 

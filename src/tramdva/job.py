@@ -11,6 +11,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from tramdva import supervision
+
 
 @contextmanager
 def logging_to(path: str | Path) -> Iterator[None]:
@@ -34,6 +36,7 @@ def logging_to(path: str | Path) -> Iterator[None]:
             level=logging.INFO, stream=log, format="%(name)s: %(message)s", force=True
         )
         logging.captureWarnings(True)
+        supervision.end_with_run()
         try:
             yield
         except Exception as error:

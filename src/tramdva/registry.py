@@ -225,7 +225,9 @@ STAGES: dict[str, Stage] = {
             "peak_frequency": real("design", "Hz", "frequency of the largest receptance"),
             "reduction": real("design", "1", "largest receptance without over with absorber"),
             "growth_rate": real("design", "1/s", "largest growth rate at the operating B"),
-            "critical_c_T": real("design", "N/m", "critical stiffness at this damping"),
+            "critical_c_T": real(
+                "design", "N/m", "critical stiffness at this damping, NaN where there is none"
+            ),
             "stroke_per_force": real("design", "m/N", "largest stroke of the absorber per force"),
             "status": flag("design", STATUS, "status"),
             "reference_peak_receptance": real("", "m/N", "largest receptance without absorber"),

@@ -1,0 +1,70 @@
+"""Look through `results/` before a run: what this pipeline did not make here is set aside."""
+
+from __future__ import annotations
+
+import json
+from base64 import urlsafe_b64encode
+from collections.abc import Iterator
+from pathlib import Path
+
+from tramdva import supervision
+from tramdva.config import STAGES, Configuration, stage
+from tramdva.provenance import code_hash
+
+SET_ASIDE = ".set-aside"
+
+
+def set_aside_unusable(configuration: Configuration, scripts: Path) -> None:
+    """Rename result files that are truncated, foreign or made from other values.
+
+    Snakemake takes every file under the right name for the result. Files that it recorded and
+    that nobody touched since are left to it; of others, the stamps must be those of this
+    configuration and code.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        The run and its lines.
+    scripts : Path
+        Folder of the scripts of the stages.
+    """
+    for line in configuration.lines:
+        for path in sorted(Path("results", line).rglob("*.nc")):
+            if not _recorded(path) and (fault := _fault(path, configuration, line, scripts)):
+                aside = path.with_name(path.name + SET_ASIDE)
+                path.replace(aside)
+                supervision.say(f"{fault}; it is now {aside.name} and will be made again")
+
+
+def _recorded(path: Path) -> bool:
+    """Tell whether Snakemake made exactly this file, by the date in its record."""
+    record = supervision.FOLDER / "metadata" / urlsafe_b64encode(str(path).encode()).decode()
+    try:
+        return json.loads(record.read_text(encoding="utf-8"))["endtime"] == path.stat().st_mtime
+    except (OSError, ValueError, KeyError):
+        return False
+
+
+def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -> str:
+    """Say in a line what speaks against a file; nothing where it can stay."""
+    from tramdva import results  # half a second that a start without such files does not need
+
+    try:
+        stamps = results.read_stamps(path)
+    except ValueError as error:
+        return str(error)
+    name = path.stem
+    if stamps["stage"] not in (name, path.parent.name):
+        return f"{path}: holds the results of {stamps['stage']}"
+    if name in STAGES and (other := list(_differing(stamps, configuration, line, name, scripts))):
+        return f"{path}: comes from elsewhere, made with other {' and '.join(other)}"
+    return ""
+
+
+def _differing(
+    stamps: dict[str, str], configuration: Configuration, line: str, name: str, scripts: Path
+) -> Iterator[str]:
+    if json.loads(stamps["parameters"]) != stage(configuration, line, name):
+        yield "parameters"
+    if stamps["code_hash"] != code_hash(scripts / f"{name}.py"):
+        yield "code"
