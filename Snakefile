@@ -34,7 +34,7 @@ wildcard_constraints:
 
 
 onstart:
-    supervision.begin_run("results", "paper_figures")
+    supervision.begin_run("results", "paper_figures", "logs")
     print(
         f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
     )

@@ -1,6 +1,6 @@
 """A pipeline that is killed at random moments ends with the same bytes as an undisturbed one.
 
-`pytest --slow tests/test_kills.py -s` shows each kill; about five minutes.
+`pytest --slow tests/test_kills.py -s` shows each kill; about ten minutes.
 """
 
 import contextlib

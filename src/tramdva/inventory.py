@@ -31,9 +31,16 @@ def set_aside_unusable(configuration: Configuration, scripts: Path) -> None:
     for line in configuration.lines:
         for path in sorted(Path("results", line).rglob("*.nc")):
             if not _recorded(path) and (fault := _fault(path, configuration, line, scripts)):
-                aside = path.with_name(path.name + SET_ASIDE)
-                path.replace(aside)
-                supervision.say(f"{fault}; it is now {aside.name} and will be made again")
+                _set_aside(path, fault)
+
+
+def _set_aside(path: Path, fault: str) -> None:
+    aside = path.with_name(path.name + SET_ASIDE)
+    try:
+        path.replace(aside)
+    except OSError as error:
+        raise SystemExit(f"{fault}; it cannot be set aside: {error.strerror}") from None
+    supervision.say(f"{fault}; it is now {aside.name} and will be made again")
 
 
 def _recorded(path: Path) -> bool:

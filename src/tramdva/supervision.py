@@ -12,6 +12,7 @@ from __future__ import annotations
 import fcntl
 import os
 import select
+import shutil
 import signal
 import socket
 import sys
@@ -27,6 +28,7 @@ RUN = FOLDER / "tramdva-run"  # names the latest run
 RUN_VARIABLE = "TRAMDVA_RUN"
 PROCESS_VARIABLE = "TRAMDVA_SNAKEMAKE_PROCESS"
 AHEAD_VARIABLE = "TRAMDVA_NANOSECONDS_AHEAD"
+LEAST_FREE = 200_000  # bytes, for locks, logs and records
 
 _held: list[IO[str]] = []  # open as long as this process lives
 
@@ -47,15 +49,25 @@ def enter_folder(*, as_job: bool = False) -> bool:
     -------
     bool
         Whether no other process works here.
+
+    Raises
+    ------
+    SystemExit
+        Where the folder cannot be written or the disk is full.
     """
     os.environ[PROCESS_VARIABLE] = str(os.getpid())
     if as_job:
         return False
+    if shutil.disk_usage(".").free < LEAST_FREE:
+        raise SystemExit(f"{Path.cwd()}: the disk is full")
     try:
         FOLDER.mkdir(exist_ok=True)
         alive = ALIVE.open("a+", encoding="utf-8")
-    except OSError:
-        return False  # a folder that cannot be written: Snakemake says so itself
+    except OSError as error:
+        raise SystemExit(
+            f"{Path.cwd()}: cannot be written: {error.strerror}; "
+            "choose another folder with --directory"
+        ) from None
     _held.append(alive)
     alone = _is_alone(alive)
     try:
@@ -114,7 +126,15 @@ def begin_run(*folders: str) -> None:
     ----------
     *folders : str
         Where the files of the pipeline are.
+
+    Raises
+    ------
+    SystemExit
+        Where one of the folders cannot be written.
     """
+    for folder in (path for name in folders for path in (Path(name), *Path(name).glob("*/"))):
+        if folder.is_dir() and not os.access(folder, os.W_OK):
+            raise SystemExit(f"{folder.absolute()}: cannot be written")
     token = uuid.uuid4().hex
     os.environ[RUN_VARIABLE] = token
     RUN.write_text(f"{token} process {os.getpid()} on {socket.gethostname()}", encoding="utf-8")
