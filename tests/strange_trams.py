@@ -136,13 +136,14 @@ def drawn(seed: int, number: int, sections: tuple[str, ...], near: float | None)
         if path.split(".")[0] in sections and entry.low is not None and "[" not in path
     }
     tram = {name: copy.deepcopy(paper[name]) for name in sections}
+    due = table
     for _ in range(1000):
-        for path, entry in table.items():
+        for path, entry in due.items():
             _put(tram, path, _value(random, entry, _get(paper, path), near))
         slips = _slips(paper | tram)
         if not slips:
             return tram
-        table = {p: e for p, e in table.items() if any(p.startswith(slip) for slip in slips)}
+        due = {p: e for p, e in table.items() if any(p.startswith(slip) for slip in slips)}
     raise RuntimeError(f"tram {number}: no parameters that fit together: {slips}")
 
 
@@ -287,7 +288,8 @@ def _received(reading: int, deadline: float) -> tuple[str, bool]:
 GOOD = {"converged", "completed", "nothing_found", "without_status"}
 # NaN with a meaning: the value does not exist there, which the other variable says.
 ABSENT_WITHOUT_ABSORBER = ("m_T", "c_T", "d_T", "absorber_c_T", "absorber_d_T")
-ABSENT_BY_NATURE = ("critical_c_T",)  # no critical curve at this damping
+# No critical curve at this damping; no self-excitation up to the largest friction decrease.
+ABSENT_BY_NATURE = ("critical_c_T", "critical_friction_decrease")
 
 
 def statuses(values: Mapping[str, np.ndarray]) -> dict[str, int]:

@@ -102,8 +102,10 @@ def _designs(line: BogieLine, none: Running, cfg, tuning) -> list[tuple[float, f
     if usable.any():
         k = int(np.argmax(usable))
         start = modal.carried_over(own.I_T, tuning["m_T"][k], tuning["c_T"][k], tuning["d_T"][k])
-    tuned = modal.tuned_absorber(line, none, _limits(cfg), start)
-    return [(np.nan, np.nan), (own.c_T, own.d_T), tuned]
+    # Without an equilibrium there is nothing to tune, and each trial would fail slowly.
+    if none.equilibrium.status == "converged":
+        start = modal.tuned_absorber(line, none, _limits(cfg), start)
+    return [(np.nan, np.nan), (own.c_T, own.d_T), start]
 
 
 def _limits(cfg: Mapping[str, Any]) -> tuple[float, float]:
