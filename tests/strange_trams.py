@@ -21,7 +21,7 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -365,9 +365,16 @@ class Tram(NamedTuple):
         return "converged" if found & {"converged", "completed"} else "nothing_found"
 
 
-def sample(count: int, sections: tuple[str, ...], jobs, near: float, limit: float, seed: int):
-    """Yield `count` sets over the whole ranges and near the paper's line in turn."""
-    for number in range(count):
+def sample(
+    numbers: Iterable[int],
+    sections: tuple[str, ...],
+    jobs: Mapping[str, Job],
+    near: float,
+    limit: float,
+    seed: int = SEED,
+) -> Iterator[Tram]:
+    """Yield sets over the whole ranges (odd numbers) and near the paper's line (even ones)."""
+    for number in numbers:
         factor = None if number % 2 else near
         tram = drawn(seed, number, sections, factor)
         outcomes, broken = apart(tram, jobs, limit)
@@ -379,6 +386,7 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--basic", type=int, default=300, help="sets for the basic model")
     parser.add_argument("--bogie", type=int, default=50, help="sets for the bogie")
+    parser.add_argument("--first", type=int, default=0, help="number of the first set")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--limit", type=float, default=300.0, help="seconds per set")
     parser.add_argument("--table", type=Path, help="CSV file with a row per set and stage")
@@ -388,8 +396,11 @@ def main(arguments: list[str]) -> int:
         ("basic model", options.basic, BASIC, BASIC_JOBS, NEAR),
         ("bogie", options.bogie, BOGIE, BOGIE_JOBS, NEAR_BOGIE),
     ):
+        if not count:
+            continue
         trams = []
-        for tram in sample(count, sections, jobs, near, options.limit, options.seed):
+        numbers = range(options.first, options.first + count)
+        for tram in sample(numbers, sections, jobs, near, options.limit, options.seed):
             trams.append(tram)
             _tell(tram)
             _tabulate(options.table, title, tram)
@@ -419,6 +430,8 @@ def _summarise(title: str, trams: list[Tram]) -> None:
     print(f"\n{title}: {len(trams)} sets")
     for draw in ("near", "wide"):
         chosen = [tram for tram in trams if tram.draw == draw]
+        if not chosen:
+            continue
         counts = Counter(tram.verdict for tram in chosen)
         shares = ", ".join(f"{name} {n} ({n / len(chosen):.0%})" for name, n in counts.items())
         print(f"  {draw}: {len(chosen)} sets: {shares}")
