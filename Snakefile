@@ -20,6 +20,16 @@ configuration = load_or_exit(
     settings.config,
 )
 LINES = configuration.run.lines
+ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
+ABSORBERS = {
+    name: line.study.evolution_tendency.absorbers
+    for name, line in configuration.lines.items()
+}
+MEASURED = {
+    name: line.out_of_roundness.measured
+    for name, line in configuration.lines.items()
+    if line.out_of_roundness.measured
+}
 values = partial(stage, configuration)
 use_numba_cache()
 if supervision.enter_folder(as_job=not workflow.is_main_process):
@@ -31,6 +41,8 @@ report: "workflow/report/workflow.rst"
 
 wildcard_constraints:
     line="|".join(LINES),
+    absorber="none|paper|tuned",
+    order="[0-9]+",
 
 
 onstart:
@@ -61,6 +73,13 @@ STAGES = [
     "curving_equilibrium",
     "bogie_modes",
     "curve_entry",
+    "evolution_tendency",
+    "tendency_maps",
+]
+PER_ABSORBER = "results/{line}/bogie_linearisation/{absorber}.nc"
+PER_ORDER = [
+    "results/{line}/bogie_simulation/{absorber}/order_{order}.nc",
+    "results/{line}/wear/{absorber}/order_{order}.nc",
 ]
 PICTURES = [
     "fig02_stability_map",
@@ -74,16 +93,23 @@ PICTURES = [
     "bogie_mode_shapes",
     "bogie_stability",
     "campbell_chart",
+    "fig10_evolution_tendency",
+    "worn_wheels",
+    "order_speed_chart",
+    "tendency_design_chart",
 ]
+TABLES = ["table2_absorber_designs", "table_absorber_effect"]
 
 
 rule all:
     input:
         expand("results/{line}/{stage}.nc", line=LINES, stage=STAGES),
+        [expand(PER_ABSORBER, line=x, absorber=ABSORBERS[x]) for x in LINES],
+        [expand(PER_ORDER, line=x, absorber=ABSORBERS[x], order=ORDERS) for x in LINES],
         expand("paper_figures/{line}/{figure}.pdf", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
-        expand("paper_figures/{line}/table2_absorber_designs.csv", line=LINES),
-        expand("paper_figures/{line}/table2_absorber_designs.html", line=LINES),
+        expand("paper_figures/{line}/{table}.csv", line=LINES, table=TABLES),
+        expand("paper_figures/{line}/{table}.html", line=LINES, table=TABLES),
     message:
         "all numbers, figures and tables"
 
@@ -311,6 +337,114 @@ rule curve_entry:
         "{wildcards.line}: ride into the curve (figure 9)"
     script:
         "workflow/scripts/curve_entry.py"
+
+
+rule bogie_linearisation:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        curving_equilibrium=branch(
+            lambda w: w.absorber == "tuned", then=rules.curving_equilibrium.output[0]
+        ),
+    output:
+        PER_ABSORBER,
+    log:
+        "logs/{line}/bogie_linearisation/{absorber}.log",
+    benchmark:
+        "logs/{line}/bogie_linearisation/{absorber}.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, f"bogie_linearisation_{w.absorber}"),
+        code=code_hash(SCRIPTS / "bogie_linearisation.py"),
+    message:
+        "{wildcards.line}: bogie on wheels out of round, absorber {wildcards.absorber}"
+    script:
+        "workflow/scripts/bogie_linearisation.py"
+
+
+rule bogie_simulation:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        bogie_linearisation=rules.bogie_linearisation.output[0],
+        measured=lambda w: MEASURED.get(w.line, []),
+    output:
+        PER_ORDER[0],
+    log:
+        "logs/{line}/bogie_simulation/{absorber}/order_{order}.log",
+    benchmark:
+        "logs/{line}/bogie_simulation/{absorber}/order_{order}.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "bogie_simulation"),
+        code=code_hash(SCRIPTS / "bogie_simulation.py"),
+    message:
+        "{wildcards.line}: order {wildcards.order}, absorber {wildcards.absorber}"
+    script:
+        "workflow/scripts/bogie_simulation.py"
+
+
+rule wear:
+    input:
+        bogie_simulation=rules.bogie_simulation.output[0],
+    output:
+        PER_ORDER[1],
+    log:
+        "logs/{line}/wear/{absorber}/order_{order}.log",
+    benchmark:
+        "logs/{line}/wear/{absorber}/order_{order}.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "wear"),
+        code=code_hash(SCRIPTS / "wear.py"),
+    message:
+        "{wildcards.line}: wear by order {wildcards.order}, absorber {wildcards.absorber}"
+    script:
+        "workflow/scripts/wear.py"
+
+
+rule evolution_tendency:
+    input:
+        bogie_linearisation=lambda w: expand(
+            PER_ABSORBER, line=w.line, absorber=ABSORBERS[w.line]
+        ),
+        wear=lambda w: expand(
+            PER_ORDER[1], line=w.line, absorber=ABSORBERS[w.line], order=ORDERS
+        ),
+    output:
+        "results/{line}/evolution_tendency.nc",
+    log:
+        "logs/{line}/evolution_tendency.log",
+    benchmark:
+        "logs/{line}/evolution_tendency.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "evolution_tendency"),
+        code=code_hash(SCRIPTS / "evolution_tendency.py"),
+    message:
+        "{wildcards.line}: evolution tendency (figure 10)"
+    script:
+        "workflow/scripts/evolution_tendency.py"
+
+
+rule tendency_maps:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+        bogie_linearisation=lambda w: expand(
+            PER_ABSORBER, line=w.line, absorber=ABSORBERS[w.line]
+        ),
+    output:
+        "results/{line}/tendency_maps.nc",
+    log:
+        "logs/{line}/tendency_maps.log",
+    benchmark:
+        "logs/{line}/tendency_maps.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "tendency_maps"),
+        code=code_hash(SCRIPTS / "tendency_maps.py"),
+    message:
+        "{wildcards.line}: tendency over speed, radius and absorber"
+    script:
+        "workflow/scripts/tendency_maps.py"
 
 
 rule fig02_stability_map:
@@ -591,6 +725,109 @@ rule campbell_chart:
         "paper_figures/campbell_chart.py"
 
 
+rule fig10_evolution_tendency:
+    input:
+        evolution_tendency=rules.evolution_tendency.output[0],
+    output:
+        pdf="paper_figures/{line}/fig10_evolution_tendency.pdf",
+        png=report(
+            "paper_figures/{line}/fig10_evolution_tendency.png",
+            category="Wheel wear",
+            caption="workflow/report/fig10.rst",
+            labels={"line": "{line}", "shows": "Figure 10"},
+        ),
+    log:
+        "logs/{line}/fig10_evolution_tendency.log",
+    benchmark:
+        "logs/{line}/fig10_evolution_tendency.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "fig10_evolution_tendency"),
+        code=code_hash(FIGURES / "fig10_evolution_tendency.py", STYLE),
+    message:
+        "{wildcards.line}: figure 10"
+    script:
+        "paper_figures/fig10_evolution_tendency.py"
+
+
+rule worn_wheels:
+    input:
+        evolution_tendency=rules.evolution_tendency.output[0],
+        wear=lambda w: expand(
+            PER_ORDER[1], line=w.line, absorber=ABSORBERS[w.line], order=ORDERS
+        ),
+    output:
+        pdf="paper_figures/{line}/worn_wheels.pdf",
+        png=report(
+            "paper_figures/{line}/worn_wheels.png",
+            category="Wheel wear",
+            caption="workflow/report/worn_wheels.rst",
+            labels={"line": "{line}", "shows": "Wear around the wheels"},
+        ),
+    log:
+        "logs/{line}/worn_wheels.log",
+    benchmark:
+        "logs/{line}/worn_wheels.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "worn_wheels"),
+        code=code_hash(FIGURES / "worn_wheels.py", STYLE),
+    message:
+        "{wildcards.line}: wear around the wheels"
+    script:
+        "paper_figures/worn_wheels.py"
+
+
+rule order_speed_chart:
+    input:
+        tendency_maps=rules.tendency_maps.output[0],
+    output:
+        pdf="paper_figures/{line}/order_speed_chart.pdf",
+        png=report(
+            "paper_figures/{line}/order_speed_chart.png",
+            category="Wheel wear",
+            caption="workflow/report/order_speed_chart.rst",
+            labels={"line": "{line}", "shows": "Growing orders over speed"},
+        ),
+    log:
+        "logs/{line}/order_speed_chart.log",
+    benchmark:
+        "logs/{line}/order_speed_chart.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "order_speed_chart"),
+        code=code_hash(FIGURES / "order_speed_chart.py", STYLE),
+    message:
+        "{wildcards.line}: growing orders over speed and radius"
+    script:
+        "paper_figures/order_speed_chart.py"
+
+
+rule tendency_design_chart:
+    input:
+        tendency_maps=rules.tendency_maps.output[0],
+    output:
+        pdf="paper_figures/{line}/tendency_design_chart.pdf",
+        png=report(
+            "paper_figures/{line}/tendency_design_chart.png",
+            category="Wheel wear",
+            caption="workflow/report/tendency_design_chart.rst",
+            labels={"line": "{line}", "shows": "Absorbers against polygons"},
+        ),
+    log:
+        "logs/{line}/tendency_design_chart.log",
+    benchmark:
+        "logs/{line}/tendency_design_chart.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "tendency_design_chart"),
+        code=code_hash(FIGURES / "tendency_design_chart.py", STYLE),
+    message:
+        "{wildcards.line}: design chart of the absorber"
+    script:
+        "paper_figures/tendency_design_chart.py"
+
+
 rule table2_absorber_designs:
     input:
         absorber_tuning=rules.absorber_tuning.output[0],
@@ -613,3 +850,27 @@ rule table2_absorber_designs:
         "{wildcards.line}: Table 2"
     script:
         "paper_figures/table2_absorber_designs.py"
+
+
+rule table_absorber_effect:
+    input:
+        evolution_tendency=rules.evolution_tendency.output[0],
+    output:
+        table="paper_figures/{line}/table_absorber_effect.csv",
+        page=report(
+            "paper_figures/{line}/table_absorber_effect.html",
+            category="Wheel wear",
+            caption="workflow/report/table_absorber_effect.rst",
+            labels={"line": "{line}", "shows": "Effect of the absorbers"},
+        ),
+    log:
+        "logs/{line}/table_absorber_effect.log",
+    benchmark:
+        "logs/{line}/table_absorber_effect.tsv"
+    threads: 1
+    params:
+        code=code_hash(FIGURES / "table_absorber_effect.py"),
+    message:
+        "{wildcards.line}: effect of the absorbers on the peaks"
+    script:
+        "paper_figures/table_absorber_effect.py"

@@ -117,7 +117,7 @@ def is_set_up() -> bool:
 
 def set_up() -> None:
     """Make the environment; the stamp comes last, so that a half-made one is recognised."""
-    print("tramdva: setting up .venv (once, about a minute)", flush=True)
+    print("tramdva: setting up .venv (once, about two minutes)", flush=True)
     STAMP.unlink(missing_ok=True)
     if not works():
         make_venv()

@@ -42,7 +42,7 @@ def contact_cost(known: Running) -> float:
     """Wall seconds of one evaluation of all contacts in the curve."""
     system = known.curve
     local = system.local(known.equilibrium.state)
-    force, zero = np.empty(24), np.zeros(4)
+    force, zero = np.empty(24), np.zeros((4, len(system.contacts.tables)))
     scratch, results = running.workspace(system.contacts)
 
     arguments = (system.contacts, system.curvatures, local, zero, zero, scratch, results, force)
@@ -76,8 +76,10 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
     local = np.empty((count, 40))
     results = np.empty((count, 4, len(known.curve.contacts.tables), 1))
     integration.run(
-        basis, known.curve.contacts, integration.steady(basis, known.curve.curvatures),
-        integration.no_excitation(basis), integration.step_table(basis.eigenvalue, interval),
+        basis.contact, known.curve.contacts,
+        integration.steady(basis.eigenvalue.size, known.curve.curvatures),
+        integration.no_excitation(basis, known.curve.contacts),
+        integration.step_table(basis.eigenvalue, interval),
         interval, 1e9, 0, 0.0, z, integration.workspace(known.curve.contacts), local, results,
         np.array([1]), 1,
     )  # fmt: skip

@@ -12,12 +12,6 @@ STYLE = Path(__file__).parent / "tramdva.mplstyle"
 AMPLITUDE = 0.12  # m, drawn size of the largest displacement
 AXLE = {"color": "C1", "linewidth": 1.8}
 REST = {"color": "0.75", "linewidth": 1.0}
-TITLES = {
-    "first_bending_front": "first bending",
-    "second_bending_front": "second bending",
-    "third_bending_front": "third bending",
-    "resilient_wheel_front": "resilient wheel",
-}
 
 
 def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
@@ -31,31 +25,34 @@ def draw(modes: dict[str, np.ndarray], wheel_radius: float) -> Figure:
     """Draw the axle from behind, outer wheel to the right, in each of its modes."""
     figure = figures.canvas(figures.DOUBLE_COLUMN, 100)
     panels = figure.subplots(2, 2, sharex=True, sharey=True).flat
-    for row, (axes, name) in enumerate(zip(panels, modes["shape_mode"], strict=False)):
-        draw_mode(axes, modes, row, wheel_radius)
-        words = f"{TITLES[str(name)]}, {modes['shape_frequency'][row]:.1f} Hz, "
-        words += f"damping {100 * modes['shape_damping_ratio'][row]:.1f} %"
-        axes.set_title(words, loc="left", fontsize="medium")
-        axes.text(
-            0.5, 0.03, energies(modes, row), transform=axes.transAxes, ha="center",
-            fontsize="small",
-        )  # fmt: skip
+    for row, (axes, name) in enumerate(zip(panels, modes["shape_mode"], strict=True)):
         axes.set_aspect("equal")
+        axes.set_title(figures.mode_name(str(name)), loc="left", fontsize="medium")
+        if np.isnan(modes["shape_frequency"][row]):
+            figures.note(axes, "no such mode")
+            continue
+        draw_mode(axes, modes, row, wheel_radius)
+        axes.text(
+            0.5, 0.03, facts(modes, row), transform=axes.transAxes, ha="center", fontsize="small",
+            linespacing=1.3,
+        )  # fmt: skip
     for axes in figure.axes[2:]:
         axes.set_xlabel("to the right, outwards (m)")
     for axes in figure.axes[::2]:
         axes.set_ylabel("height (m)")
-    figure.axes[0].set(ylim=(-0.22, 0.75))
+    figure.axes[0].set(xlim=(-1.15, 1.15), ylim=(-0.42, 0.78), yticks=(0.0, 0.3, 0.6))
     return figure
 
 
-def energies(modes: dict[str, np.ndarray], row: int) -> str:
-    """Name the two largest shares of the strain energy."""
+def facts(modes: dict[str, np.ndarray], row: int) -> str:
+    """Name frequency and damping, and the two largest shares of the strain energy."""
     share = modes["strain_energy_share"][row]
     largest = np.argsort(share)[::-1][:2]
-    return ", ".join(
+    energies = ", ".join(
         f"{str(modes['energy_class'][k]).replace('_', ' ')} {100 * share[k]:.0f} %" for k in largest
     )
+    frequency, damping = modes["shape_frequency"][row], 100 * modes["shape_damping_ratio"][row]
+    return f"{frequency:.1f} Hz, damping {damping:.1f} %\n{energies}"
 
 
 def draw_mode(axes: Axes, modes: dict[str, np.ndarray], row: int, wheel_radius: float) -> None:

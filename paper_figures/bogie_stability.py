@@ -26,12 +26,14 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
 
 def draw(modes: dict[str, np.ndarray], operating_B: float) -> Figure:
     """Draw growth rate over B, and growth rate over stiffness and damping of the absorber."""
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 84)
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 92)
     left, right = figure.subplots(1, 2)
     draw_growth(left, modes, operating_B)
     draw_map(figure, right, modes)
     for axes, name in ((left, "a"), (right, "b")):
         figures.letter(axes, name)
+    entries = [*left.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
+    figures.legend_below(figure, entries, 2)
     return figure
 
 
@@ -49,9 +51,12 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     axes.axvline(operating_B, color="0.6", linewidth=0.6, linestyle=":")
     axes.set(
         xlabel="friction decrease B (s/m)", ylabel="growth rate (1/s)",
-        xlim=(0.0, modes["friction_decrease"][-1]), ylim=(-30.0, 15.0),
+        xlim=(0.0, modes["friction_decrease"][-1]),
     )  # fmt: skip
-    axes.legend(loc="lower right")
+    axes.annotate(
+        f"B = {operating_B:g} s/m", (operating_B, 0.02), (3, 0), xycoords=("data", "axes fraction"),
+        textcoords="offset points", fontsize="small", color="0.35",
+    )  # fmt: skip
 
 
 def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
@@ -71,7 +76,6 @@ def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
             ),
         )  # fmt: skip
     axes.set(xlabel="stiffness (10⁵ N m/rad)", ylabel="damping (N m s/rad)")
-    axes.legend(loc="upper right")
 
 
 if __name__ == "__main__":

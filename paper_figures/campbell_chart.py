@@ -9,12 +9,6 @@ from matplotlib.figure import Figure
 from tramdva import figures, job, results
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
-SHOWN = {
-    "first_bending_front": "first bending",
-    "second_bending_front": "second bending",
-    "third_bending_front": "third bending",
-    "resilient_wheel_front": "resilient wheel",
-}
 ORDERS = (5, 10, 15, 20, 26, 30, 40)
 TOP = 160.0  # Hz
 KMH = 3.6
@@ -36,11 +30,14 @@ def draw(modes: dict[str, np.ndarray], wheel_radius: float, speed: float) -> Fig
     fastest = 30.0 / KMH
     for order in ORDERS:
         draw_order(axes, order, wheel_radius, fastest)
-    for name, words in SHOWN.items():
-        found = np.flatnonzero(modes["shape_mode"] == name)
-        if found.size:
-            draw_level(axes, words, float(modes["shape_frequency"][found[0]]), fastest)
+    for name, frequency in zip(modes["shape_mode"], modes["shape_frequency"], strict=True):
+        if np.isfinite(frequency):
+            draw_level(axes, figures.mode_name(str(name)), float(frequency), fastest)
     axes.axvline(speed * KMH, color="0.5", linestyle=":", linewidth=0.8)
+    axes.text(
+        1.0, 1.06, "order of the polygon", transform=axes.transAxes, ha="right", va="bottom",
+        fontsize="small", color="0.35",
+    )  # fmt: skip
     axes.set(
         xlabel="speed (km/h)", ylabel="frequency (Hz)", xlim=(0.0, fastest * KMH), ylim=(0.0, TOP)
     )
@@ -51,11 +48,13 @@ def draw_order(axes: Axes, order: int, wheel_radius: float, fastest: float) -> N
     """Draw the frequency at which the waves of an order pass, eq. (18)."""
     frequency = order * fastest / (2.0 * np.pi * wheel_radius)
     axes.plot([0.0, fastest * KMH], [0.0, frequency], color="0.7", linewidth=0.7)
-    inside = min(1.0, TOP / frequency)
-    axes.text(
-        0.97 * inside * fastest * KMH, 0.97 * inside * frequency, f"{order}", fontsize="small",
-        ha="center", va="center", zorder=4,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+    top = TOP / frequency * fastest * KMH
+    place, side = ((top, TOP), "bottom") if top < fastest * KMH else (
+        (fastest * KMH, frequency), "center"
+    )  # fmt: skip
+    axes.annotate(
+        f"{order}", place, (0, 2) if side == "bottom" else (3, 0), textcoords="offset points",
+        ha="center" if side == "bottom" else "left", va=side, fontsize="small", color="0.35",
     )  # fmt: skip
 
 
@@ -64,8 +63,8 @@ def draw_level(axes: Axes, words: str, frequency: float, fastest: float) -> None
     axes.plot([0.0, fastest * KMH], [frequency, frequency], color="C1", linewidth=1.2)
     axes.annotate(
         f"{words}, {frequency:.0f} Hz",
-        (0.3, frequency),
-        (0, 2),
+        (0.6, frequency),
+        (0, 3),
         textcoords="offset points",
         fontsize="small",
     )

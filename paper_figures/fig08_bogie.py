@@ -10,13 +10,16 @@ from matplotlib.patches import Circle, Rectangle
 from tramdva import figures, job
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
-BODY = {"facecolor": "0.92", "edgecolor": "0.35", "linewidth": 0.8}
-RIM = {"facecolor": "0.75", "edgecolor": "black", "linewidth": 0.8}
+# Dashed: bodies of which the model has mass and joints, but no outline.
+BODY = {"facecolor": "0.95", "edgecolor": "0.45", "linewidth": 0.7, "linestyle": "--"}
+RIM = {"facecolor": "0.80", "edgecolor": "black", "linewidth": 0.8}
 AXLE = {"color": "C1", "linewidth": 2.6, "solid_capstyle": "round"}
-PRIMARY = {"color": "C2", "linewidth": 1.6}
-SECONDARY = {"color": "C4", "linewidth": 1.6}
+PRIMARY = {"color": "C2", "linewidth": 1.4}
+SECONDARY = {"color": "C4", "linewidth": 1.4}
 ABSORBER = {"facecolor": "C0", "edgecolor": "black", "linewidth": 0.6, "zorder": 6}
-TREAD = 0.11  # m, drawn width of a rim
+RAIL = {"color": "0.4", "linewidth": 0.8}
+TREAD, BLOCK = 0.11, 0.10  # m, drawn width of a rim, side of an absorber
+FLOOR, OVERHANG = 0.12, 0.35  # m, drawn height of the car body and length of the frame beyond axles
 
 
 def main(*, pdf: str, png: str, code: str, cfg: dict) -> None:
@@ -26,19 +29,23 @@ def main(*, pdf: str, png: str, code: str, cfg: dict) -> None:
 
 
 def draw(bogie: dict) -> Figure:
-    """Draw front view (an axle), side view and plan."""
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 118)
-    grid = figure.add_gridspec(2, 2, width_ratios=[10, 13], height_ratios=[10, 9])
-    panels = [figure.add_subplot(place) for place in (grid[0, 0], grid[0, 1], grid[1, 1])]
-    for axes, name, draw_view in zip(panels, "abc", (front, side, plan), strict=True):
+    """Draw an axle from behind, the bogie from its side, and its plan, all to one scale."""
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 112)
+    grid = figure.add_gridspec(2, 2, width_ratios=[26, 21])
+    panels = [figure.add_subplot(place) for place in (grid[0, 0], grid[1, 0], grid[:, 1])]
+    half = bogie["half_wheelbase"] + bogie["wheel"]["radius"] + 0.15
+    for axes, name, draw_view in zip(panels, "abc", (behind, side, plan), strict=True):
         figures.letter(axes, name)
         draw_view(axes, bogie)
         axes.set_aspect("equal")
-        axes.autoscale_view()
-        axes.margins(0.05)
-    panels[0].set(xlabel="to the right, outwards (m)", ylabel="height over the rail (m)")
-    panels[1].set(xlabel="forward (m)", ylabel="height (m)")
-    panels[2].set(xlabel="forward (m)", ylabel="to the left (m)")
+    for axes in panels[:2]:
+        axes.set(xlim=(-half, half), ylim=(-0.28, 0.86), ylabel="height (m)")
+    panels[0].set_xlabel("to the right, outwards (m)")
+    panels[1].set_xlabel("forward (m)")
+    panels[2].set(
+        xlim=(-1.05, 1.05), ylim=(-half, half), xlabel="to the right, outwards (m)",
+        ylabel="forward (m)",
+    )  # fmt: skip
     entries = [
         figures.key("axle bridge", **AXLE),
         figures.key("primary suspension", **PRIMARY),
@@ -47,12 +54,27 @@ def draw(bogie: dict) -> Figure:
             describe(bogie["absorber"]), color="C0", marker="s", linestyle="none",
             markeredgecolor="black",
         ),
-        figures.key("rim, frame, car body", color="0.5", marker="s", linestyle="none"),
+        figures.key("rim", color="0.80", marker="s", linestyle="none", markeredgecolor="black"),
+        figures.key("frame, car body (no outline in the model)", color="0.45", linestyle="--"),
     ]  # fmt: skip
-    empty = figure.add_subplot(grid[1, 0])
-    empty.axis("off")
-    empty.legend(handles=entries, loc="center", frameon=False)
+    figures.legend_below(figure, entries, 3)
     return figure
+
+
+def dimension(
+    axes: Axes, start: tuple[float, float], end: tuple[float, float], word: str, beside: float = 0.0
+) -> None:
+    """Draw a dimension line with its length in mm between two points, its text `beside` it (m)."""
+    axes.annotate(
+        "", end, start,
+        arrowprops={"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0},
+    )  # fmt: skip
+    axes.text(
+        0.5 * (start[0] + end[0]) + beside, 0.5 * (start[1] + end[1]),
+        f"{word} {1e3 * np.hypot(end[0] - start[0], end[1] - start[1]):.0f} mm",
+        ha="left" if beside else "center", va="center", fontsize="small", zorder=7,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+    )  # fmt: skip
 
 
 def describe(absorber: dict) -> str:
@@ -76,73 +98,89 @@ def spring(axes: Axes, start: tuple[float, float], end: tuple[float, float], loo
     )
 
 
-def front(axes: Axes, bogie: dict) -> None:
-    """Draw an axle from the front: rims, dropped beam with arms, primary springs, absorbers."""
-    wheel, axle, absorber = bogie["wheel"], bogie["axle"], bogie["absorber"]
-    radius, half, end = wheel["radius"], wheel["half_distance"], axle["half_length"]
-    bottom = radius - axle["drop"]
-    primary = bogie["primary"]
-    secondary = bogie["secondary"]
-    frame = bogie["frame"]["height"]
-    axes.axhline(0.0, color="0.4", linewidth=0.8)
-    axes.add_patch(Rectangle((-0.7, frame + 0.02), 1.4, 0.07, **BODY))
-    floor = secondary["height"] + 0.1
-    axes.add_patch(Rectangle((-1.15, floor), 2.3, 0.12, **BODY))
-    for side in (-1, 1):
-        axes.add_patch(Rectangle((side * half - TREAD / 2, 0), TREAD, 2 * radius, **RIM))
-        axes.plot([side * end, side * end, side * half], [bottom, radius, radius], **AXLE)
-        y = side * primary["lateral_position"]
-        spring(axes, (y, primary["height"] - 0.06), (y, frame + 0.02), PRIMARY)
-        y = side * secondary["lateral_position"]
-        spring(axes, (y, frame + 0.09), (y, floor), SECONDARY)
-        place = (side * absorber["lateral_position"] - 0.05, absorber["height"] - 0.04)
-        axes.add_patch(Rectangle(place, 0.1, 0.08, **ABSORBER))
+def block(axes: Axes, x: float, y: float) -> None:
+    """Draw an absorber around its point."""
+    axes.add_patch(Rectangle((x - BLOCK / 2, y - BLOCK / 2), BLOCK, BLOCK, **ABSORBER))
+
+
+def levels(bogie: dict) -> tuple[float, float, float]:
+    """Heights (m) of the axle bridge's middle, and of frame and floor clear of their springs."""
+    bottom = bogie["wheel"]["radius"] - bogie["axle"]["drop"]
+    return bottom, bogie["primary"]["height"] + 0.08, bogie["secondary"]["height"] + 0.1
+
+
+def behind(axes: Axes, bogie: dict) -> None:
+    """Draw an axle from behind: rims, dropped beam with arms, primary springs, absorbers."""
+    wheel, absorber = bogie["wheel"], bogie["absorber"]
+    radius, half, end = wheel["radius"], wheel["half_distance"], bogie["axle"]["half_length"]
+    primary, secondary = bogie["primary"], bogie["secondary"]
+    bottom, frame, floor = levels(bogie)
+    axes.axhline(0.0, **RAIL)
+    axes.add_patch(Rectangle((-0.65, frame), 1.3, 0.07, **BODY))
+    axes.add_patch(Rectangle((-1.15, floor), 2.3, FLOOR, **BODY))
+    for side_ in (-1, 1):
+        axes.add_patch(Rectangle((side_ * half - TREAD / 2, 0), TREAD, 2 * radius, **RIM))
+        axes.plot([side_ * end, side_ * end, side_ * half], [bottom, radius, radius], **AXLE)
+        y = side_ * primary["lateral_position"]
+        spring(axes, (y, radius), (y, frame), PRIMARY)
+        y = side_ * secondary["lateral_position"]
+        spring(axes, (y, frame + 0.07), (y, floor), SECONDARY)
+        block(axes, side_ * absorber["lateral_position"], absorber["height"])
     axes.plot([-end, end], [bottom, bottom], **AXLE)
+    dimension(axes, (-half, -0.19), (half, -0.19), "wheels")
+    place = absorber["lateral_position"]
+    dimension(axes, (-place, -0.08), (place, -0.08), "absorbers")
+    axes.plot([-half, half], [radius, radius], color="0.4", linewidth=0.5, linestyle="-.")
+    dimension(axes, (-0.25, bottom), (-0.25, radius), "drop", 0.04)
 
 
 def side(axes: Axes, bogie: dict) -> None:
-    """Draw the bogie from its side."""
-    radius, a = bogie["wheel"]["radius"], bogie["half_wheelbase"]
-    frame, secondary = bogie["frame"]["height"], bogie["secondary"]
-    bottom, absorber = radius - bogie["axle"]["drop"], bogie["absorber"]
-    floor = secondary["height"] + 0.1
-    axes.axhline(0.0, color="0.4", linewidth=0.8)
-    axes.add_patch(Rectangle((-a - 0.35, frame + 0.02), 2 * a + 0.7, 0.07, **BODY))
-    axes.add_patch(Rectangle((-a - 0.75, floor), 2 * a + 1.5, 0.12, **BODY))
-    spring(axes, (0, frame + 0.09), (0, floor), SECONDARY)
+    """Draw the bogie from its right side."""
+    radius, a, absorber = bogie["wheel"]["radius"], bogie["half_wheelbase"], bogie["absorber"]
+    bottom, frame, floor = levels(bogie)
+    axes.axhline(0.0, **RAIL)
+    axes.add_patch(Rectangle((-a - OVERHANG, frame), 2 * (a + OVERHANG), 0.07, **BODY))
+    axes.add_patch(Rectangle((-2 * a, floor), 4 * a, FLOOR, **BODY))
+    spring(axes, (0, frame + 0.07), (0, floor), SECONDARY)
     for x in (-a, a):
         axes.add_patch(Circle((x, radius), radius, **RIM))
-        axes.add_patch(Circle((x, radius), 0.55 * radius, fill=False, edgecolor="0.4", lw=0.6))
+        axes.add_patch(Circle((x, radius), 0.72 * radius, facecolor="white", edgecolor="0.4"))
         axes.plot([x, x], [bottom, radius], **AXLE)
-        spring(axes, (x, bogie["primary"]["height"] - 0.06), (x, frame + 0.02), PRIMARY)
-        axes.add_patch(Rectangle((x - 0.05, absorber["height"] - 0.04), 0.1, 0.08, **ABSORBER))
+        spring(axes, (x, radius), (x, frame), PRIMARY)
+        block(axes, x, absorber["height"])
+    dimension(axes, (-a, -0.12), (a, -0.12), "wheelbase")
+    dimension(axes, (-a + radius + 0.05, 0.0), (-a + radius + 0.05, radius), "radius", 0.03)
+    axes.annotate("", (0.35, 0.3), (-0.05, 0.3), arrowprops={"arrowstyle": "-|>", "color": "0.3"})
+    axes.text(0.15, 0.32, "running direction", ha="center", va="bottom", fontsize="small")
 
 
 def plan(axes: Axes, bogie: dict) -> None:
-    """Draw the bogie from above."""
-    radius, half, a = bogie["wheel"]["radius"], bogie["wheel"]["half_distance"], bogie[
-        "half_wheelbase"
-    ]  # fmt: skip
-    end, absorber = bogie["axle"]["half_length"], bogie["absorber"]["lateral_position"]
+    """Draw the bogie from above, forward up."""
+    wheel, a, absorber = bogie["wheel"], bogie["half_wheelbase"], bogie["absorber"]
+    radius, half = wheel["radius"], wheel["half_distance"]
     primary, secondary = bogie["primary"]["lateral_position"], bogie["secondary"]
+    place = absorber["lateral_position"]
     for y in (-half, half):
-        axes.axhline(y, color="0.4", linewidth=0.8)
-    axes.add_patch(Rectangle((-a - 0.3, -0.45), 2 * a + 0.6, 0.9, **BODY))
-    for x in (-a, a):
-        axes.plot([x, x], [-half, half], **AXLE)
+        axes.axvline(y, **RAIL)
+    axes.add_patch(Rectangle((-0.65, -a - OVERHANG), 1.3, 2 * (a + OVERHANG), **BODY))
+    for x, word in ((-a, "rear"), (a, "front")):
+        axes.plot([-half, half], [x, x], **AXLE)
+        axes.text(0.0, x - 0.06, f"{word} axle", ha="center", va="top", fontsize="small")
         for side_ in (-1, 1):
-            rim = (x - radius, side_ * half - TREAD / 2)
-            axes.add_patch(Rectangle(rim, 2 * radius, TREAD, **RIM))
-            spring(axes, (x - 0.16, side_ * primary), (x, side_ * primary), PRIMARY)
-            place = (x - 0.05, side_ * absorber - 0.05)
-            axes.add_patch(Rectangle(place, 0.1, 0.1, **ABSORBER))
-    for y in (-secondary["lateral_position"], secondary["lateral_position"]):
-        axes.add_patch(Circle((0, y), 0.08, fill=False, edgecolor="C4", linewidth=1.6))
+            rim = (side_ * half - TREAD / 2, x - radius)
+            axes.add_patch(Rectangle(rim, TREAD, 2 * radius, **RIM))
+            block(axes, side_ * place, x)
+            ring = Circle((side_ * primary, x), 0.085, fill=False, zorder=7, **PRIMARY)
+            axes.add_patch(ring)
+    for side_ in (-1, 1):
+        middle = (side_ * secondary["lateral_position"], 0)
+        axes.add_patch(Circle(middle, 0.085, fill=False, **SECONDARY))
     axes.annotate(
-        "running direction", (a + 0.55, 0.0), (a - 0.35, 0.0), va="center", ha="right",
-        fontsize="small", arrowprops={"arrowstyle": "->"},
+        "curve to the left", (-0.3, 0.5), (0.05, 0.2), ha="center", va="top", fontsize="small",
+        arrowprops={"arrowstyle": "-|>", "color": "0.3", "connectionstyle": "arc3,rad=0.25"},
     )  # fmt: skip
-    axes.plot([-end, end], [0, 0], alpha=0.0)
+    axes.text(-half - 0.18, 0.0, "inner", rotation=90, va="center", ha="center", fontsize="small")
+    axes.text(half + 0.18, 0.0, "outer", rotation=90, va="center", ha="center", fontsize="small")
 
 
 if __name__ == "__main__":

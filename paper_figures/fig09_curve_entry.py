@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from tramdva import figures, job, results
 from tramdva.figures import MILLI
@@ -12,7 +13,7 @@ from tramdva.figures import MILLI
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LOOKS = (
     {"color": "C1", "linewidth": 0.4},  # without absorber, as in the paper
-    {"color": "0.55", "linewidth": 0.6},  # with the line's absorber, as in the paper
+    {"color": "0.35", "linewidth": 0.7},  # with the line's absorber, as in the paper
     {"color": "C2", "linewidth": 0.6},
 )
 WHEEL = "front_inner"
@@ -52,7 +53,8 @@ def draw(ride: dict[str, np.ndarray], modes: dict[str, np.ndarray], entry: float
     for row, name in enumerate(ride["absorber"]):
         words = f"{figures.design_name(str(name)).replace('Table 2', 'Table 3')}: "
         mode = int(np.flatnonzero(modes["absorber"] == name)[0])
-        words += f"growth rate {modes['operating_growth_rate'][mode]:+.2f} 1/s at "
+        rate = f"{modes['operating_growth_rate'][mode]:+.2f}".replace("-", "−")
+        words += f"growth rate {rate} 1/s at "
         words += f"{modes['operating_frequency'][mode]:.1f} Hz"
         if ride["status"][row] != "completed":
             words += f" ({ride['status'][row].replace('_', ' ')})"
@@ -89,6 +91,8 @@ def draw_detail(
     for row, values in enumerate(velocity):
         axes.plot(time[shown], values[shown], **{**LOOKS[row], "linewidth": 1.2})
     axes.set(xlabel="time (s)", xlim=(time[shown][0], time[-1]))
+    axes.xaxis.set_major_locator(MaxNLocator(3, prune="both"))
+    axes.set_title(f"{PERIODS} periods at {frequency:.1f} Hz", loc="right", fontsize="small")
 
 
 if __name__ == "__main__":

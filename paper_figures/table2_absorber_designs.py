@@ -1,12 +1,8 @@
 """Table 2: designs of the absorber side by side."""
 
-import csv
-import html
-from pathlib import Path
-
 import numpy as np
 
-from tramdva import figures, job, results
+from tramdva import figures, job, results, tables
 from tramdva.figures import KILO, MEGA
 
 MM_PER_KN = 1e-6  # m/N
@@ -23,31 +19,6 @@ COLUMNS = {
     "critical c_T at this d_T (MN/m)": (MEGA, "critical_c_T"),
     "stroke per force (mm/kN)": (MM_PER_KN, "stroke_per_force"),
 }
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<title>{title}</title>
-<style>
-body {{ font: 14px sans-serif; background: white; color: black; }}
-table {{ border-collapse: collapse; border-top: 2px solid; border-bottom: 2px solid; }}
-th, td {{ padding: 0.3em 0.8em; text-align: right; }}
-th:first-child, td:first-child {{ text-align: left; }}
-thead th {{ border-bottom: 1px solid; vertical-align: bottom; font-weight: bold; }}
-</style>
-</head>
-<body>
-<table>
-<thead>
-{head}
-</thead>
-<tbody>
-{body}
-</tbody>
-</table>
-</body>
-</html>
-"""
 
 
 def main(*, table: str, page: str, code: str, absorber_tuning: str) -> None:
@@ -63,10 +34,7 @@ def main(*, table: str, page: str, code: str, absorber_tuning: str) -> None:
         Result file.
     """
     rows = [["design", *COLUMNS, "status"], *designs(results.read(absorber_tuning))]
-    with results.atomically(table) as part, part.open("w", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
-    with results.atomically(page) as part:
-        write_page(part, rows)
+    tables.save(table, page, "Designs of the absorber", rows)
 
 
 def designs(tuning: dict[str, np.ndarray]) -> list[list[str]]:
@@ -90,16 +58,6 @@ def numbers(tuning: dict[str, np.ndarray], row: int) -> list[str]:
         value = tuning[name][row] / unit if name in tuning else np.nan
         cells.append(f"{value:#.4g}".rstrip(".") if np.isfinite(value) else "")
     return cells
-
-
-def write_page(path: Path, rows: list[list[str]]) -> None:
-    """Write the table as a page for the report."""
-    head, *body = (
-        "<tr>" + "".join(f"<{tag}>{html.escape(cell) or '–'}</{tag}>" for cell in row) + "</tr>"
-        for tag, row in [("th", rows[0]), *(("td", row) for row in rows[1:])]
-    )
-    text = PAGE.format(title="Designs of the absorber", head=head, body="\n".join(body))
-    path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

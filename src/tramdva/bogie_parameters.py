@@ -206,8 +206,8 @@ class BogieAbsorber(Section):
     d_T: Real = quantity("damping (N s/m if translation)", "N m s/rad", 0, 1e7, "Table 3")
 
 
-class Bogie(Section):
-    """The two-axle tram bogie with its share of the car body."""
+class BareBogie(Section):
+    """The two-axle tram bogie with its share of the car body, without absorbers."""
 
     half_wheelbase: Real = quantity("half of the wheelbase", "m", 0.3, 2, "ASSUME")
     car_body: RigidBody
@@ -218,19 +218,28 @@ class Bogie(Section):
     axle: AxleBridge
     stub: Stub
     wheel: Wheel
-    absorber: BogieAbsorber
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.axle.half_length > self.wheel.half_distance:
+            raise ValueError("axle.half_length must be at most wheel.half_distance")
+        if self.axle.drop >= self.wheel.radius:
+            raise ValueError("axle.drop must be less than wheel.radius")
+        return self
+
+
+class Bogie(BareBogie):
+    """The two-axle tram bogie with its absorbers."""
+
+    absorber: BogieAbsorber
+
+    @model_validator(mode="after")
+    def _absorber_on_the_axle(self) -> Self:
         if self.absorber.lateral_position > self.axle.half_length:
             raise ValueError(
                 f"absorber.lateral_position = {self.absorber.lateral_position:g} m must be at most "
                 f"axle.half_length = {self.axle.half_length:g} m: the absorber sits on the axle"
             )
-        if self.axle.half_length > self.wheel.half_distance:
-            raise ValueError("axle.half_length must be at most wheel.half_distance")
-        if self.axle.drop >= self.wheel.radius:
-            raise ValueError("axle.drop must be less than wheel.radius")
         return self
 
 

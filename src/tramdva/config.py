@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from tramdva import schema, slips, strict_yaml
+from tramdva.bogie_parameters import BareBogie, BogieAbsorber
 from tramdva.parameters import LINE_NAME, Line, Run
 
 BASE_LINE = "paper"
@@ -40,6 +41,19 @@ _BOGIE = (
     "creep_force.A",
     "creep_force.B",
     "numerics.bogie",
+)
+# Without self-excitation, for wheels out of round.
+_ROUGH_BOGIE = (
+    "track",
+    *(f"bogie.{name}" for name in BareBogie.model_fields),
+    "contact_geometry",
+    "creep_force.mu_0",
+    "creep_force.A",
+    "forced_excitation.B",
+    "numerics.bogie",
+)
+_ABSORBER_TO_TUNE = tuple(
+    f"bogie.absorber.{name}" for name in BogieAbsorber.model_fields if name not in ("c_T", "d_T")
 )
 _FIGURE = ("label",)
 _FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
@@ -106,6 +120,28 @@ STAGES: dict[str, tuple[str, ...]] = {
     "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
     "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
     "curve_entry": (*_BOGIE, "study.curve_entry", "numerics.curve_entry"),
+    "bogie_linearisation_none": _ROUGH_BOGIE,
+    "bogie_linearisation_paper": (*_ROUGH_BOGIE, "bogie.absorber"),
+    "bogie_linearisation_tuned": (*_ROUGH_BOGIE, *_ABSORBER_TO_TUNE),
+    "bogie_simulation": ("out_of_roundness", "numerics.bogie_simulation"),
+    "wear": ("wear", "numerics.wear"),
+    "evolution_tendency": (
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency",
+        "numerics.wear",
+        "numerics.evolution_tendency",
+    ),
+    "tendency_maps": (
+        *_ROUGH_BOGIE,
+        "bogie.absorber",
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency",
+        "study.tendency_maps",
+        "numerics.wear",
+        "numerics.tendency_maps",
+    ),
     "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
@@ -117,6 +153,10 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
     "bogie_stability": (*_FIGURE, "creep_force.B"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
+    "fig10_evolution_tendency": _FIGURE,
+    "worn_wheels": _FIGURE,
+    "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
+    "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
 }
 
 

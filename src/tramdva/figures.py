@@ -53,6 +53,22 @@ def design_name(design: str) -> str:
     return DESIGNS.get(design, design.replace("_", " "))
 
 
+MODES = {
+    "_front": ", front axle",
+    "_rear": ", rear axle",
+    "_in_phase": ", axles in phase",
+    "_opposed": ", axles opposed",
+    "_both_axles": ", both axles",
+}
+
+
+def mode_name(mode: str) -> str:
+    """Name a mode of the bogie for readers."""
+    for ending, words in MODES.items():
+        mode = mode.removesuffix(ending) + words if mode.endswith(ending) else mode
+    return mode.replace("_", " ")
+
+
 def style(path: str | Path) -> AbstractContextManager[None]:
     """Return the context in which the figure is drawn and saved.
 

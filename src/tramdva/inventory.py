@@ -60,10 +60,10 @@ def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -
         stamps = results.read_stamps(path)
     except ValueError as error:
         return str(error)
-    name = path.stem
-    if stamps["stage"] not in (name, path.parent.name):
-        return f"{path}: holds the results of {stamps['stage']}"
-    if name in STAGES and (other := list(_differing(stamps, configuration, line, name, scripts))):
+    name = stamps["stage"]
+    if name not in path.with_suffix("").parts:
+        return f"{path}: holds the results of {name}"
+    if other := list(_differing(stamps, configuration, line, name, scripts)):
         return f"{path}: comes from elsewhere, made with other {' and '.join(other)}"
     return ""
 
@@ -71,7 +71,9 @@ def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -
 def _differing(
     stamps: dict[str, str], configuration: Configuration, line: str, name: str, scripts: Path
 ) -> Iterator[str]:
-    if json.loads(stamps["parameters"]) != stage(configuration, line, name):
-        yield "parameters"
+    if name in STAGES:  # others use the values of another stage
+        expected = json.dumps(stage(configuration, line, name))
+        if json.loads(stamps["parameters"]) != json.loads(expected):
+            yield "parameters"
     if stamps["code_hash"] != code_hash(scripts / f"{name}.py"):
         yield "code"

@@ -69,7 +69,19 @@ def summary(lines: Sequence[str], folder: Path = Path("logs")) -> str:
 
 
 def _durations(folder: Path) -> Iterator[tuple[str, float]]:
-    for path in sorted(folder.glob("*.tsv"), key=lambda path: path.stat().st_mtime_ns):
-        with path.open(encoding="utf-8") as table:
-            for row in csv.DictReader(table, delimiter="\t"):
-                yield path.stem, float(row["s"])
+    """Time of each job; of the many jobs of one stage their sum."""
+    for path in sorted(folder.glob("*.tsv"), key=_age):
+        yield path.stem, _seconds(path)
+    for stage in sorted(path for path in folder.glob("*") if path.is_dir()):
+        jobs = [_seconds(path) for path in stage.rglob("*.tsv")]
+        if jobs:
+            yield f"{stage.name}, {len(jobs)} jobs", sum(jobs)
+
+
+def _age(path: Path) -> int:
+    return path.stat().st_mtime_ns
+
+
+def _seconds(path: Path) -> float:
+    with path.open(encoding="utf-8") as table:
+        return sum(float(row["s"]) for row in csv.DictReader(table, delimiter="\t"))

@@ -20,6 +20,16 @@ from tramdva.bogie_study import (
     CurveEntryNumerics,
     CurveEntryStudy,
 )
+from tramdva.evolution_study import (
+    BogieSimulationNumerics,
+    EvolutionTendencyNumerics,
+    EvolutionTendencyStudy,
+    OutOfRoundness,
+    TendencyMapsNumerics,
+    TendencyMapsStudy,
+    Wear,
+    WearNumerics,
+)
 from tramdva.quantities import Interval, Real, Section, Whole, printable, quantity, unique
 
 LINE_NAME = r"[a-z0-9][a-z0-9_-]{0,40}"
@@ -198,6 +208,8 @@ class Study(Section):
     frequency_response: FrequencyResponseStudy
     bogie_modes: BogieModesStudy
     curve_entry: CurveEntryStudy
+    evolution_tendency: EvolutionTendencyStudy
+    tendency_maps: TendencyMapsStudy
 
 
 def named_uniquely(variants: tuple[AbsorberVariant, ...]) -> tuple[AbsorberVariant, ...]:
@@ -229,6 +241,8 @@ class Line(Section):
     track: Track
     bogie: Bogie
     contact_geometry: ContactGeometry
+    out_of_roundness: OutOfRoundness
+    wear: Wear
     study: Study
 
     @model_validator(mode="after")
@@ -340,6 +354,10 @@ class Numerics(Section):
     bogie: BogieNumerics
     bogie_modes: BogieModesNumerics
     curve_entry: CurveEntryNumerics
+    bogie_simulation: BogieSimulationNumerics
+    wear: WearNumerics
+    evolution_tendency: EvolutionTendencyNumerics
+    tendency_maps: TendencyMapsNumerics
 
 
 def no_device(name: str) -> str:

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tramdva import supervision
-from tramdva.registry import STAGES, Stage, Variable
+from tramdva.registry import STAGES
+from tramdva.result_variables import Stage, Variable
 
 if TYPE_CHECKING:
     import xarray
@@ -214,10 +215,12 @@ def _write(
         for dimension, length in lengths.items():
             dataset.createDimension(dimension, length)
         for name, variable in stage.variables.items():
-            _add(dataset, name, variable, arrays[name])
+            _add(dataset, name, variable, arrays[name], stage.compressed)
 
 
-def _add(dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray) -> None:
+def _add(
+    dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray, compressed: bool
+) -> None:
     dimensions = variable.dimensions
     if variable.kind == "text":
         length = array.dtype.itemsize
@@ -226,7 +229,8 @@ def _add(dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndar
             dataset.createDimension(characters, length)
         dimensions = (*dimensions, characters)
         array = np.frombuffer(array.tobytes(), "S1").reshape(*array.shape, length)
-    target = dataset.createVariable(name, array.dtype, dimensions, **COMPRESSION)
+    how = COMPRESSION if compressed else {}
+    target = dataset.createVariable(name, array.dtype, dimensions, **how)
     if array.size:
         target[...] = array
     target.setncatts({"long_name": variable.long_name, "units": variable.unit})

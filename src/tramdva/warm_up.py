@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from tramdva import wheelset
+from tramdva import wear, wheelset
 from tramdva.bifurcation.hopf import HopfPoint
 from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
+from tramdva.bogie import integration, running
+from tramdva.contact import fastsim, geometry, patch, profiles, traction_field
 
 # Only the types matter: the results are thrown away.
 _COUNT = len(wheelset.WheelsetParameters._fields)
@@ -17,6 +19,9 @@ def compile_kernels() -> None:
     with np.errstate(all="ignore"):
         _wheelset()
         _collocation()
+        contacts = _contacts()
+        _wear(contacts.law.grid)
+        _bogie(contacts)
 
 
 def _wheelset() -> None:
@@ -46,3 +51,44 @@ def _collocation() -> None:
     hopf = HopfPoint(np.zeros(2), np.array([1.0, 1.0j]), 1.0, np.zeros(1), 0.0, True)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
     curve.correct(curve.predict(curve.start(hopf, 2, 4), 0.1))
+
+
+def _contacts() -> running.Contacts:
+    """Four wheels, with tread and flange, on the coarsest tables and patches that there can be."""
+    zone, *_ = geometry.contact_tables(
+        profiles.tram_wheel(), profiles.grooved_rail(), 0.3, shift_range=(0.0, 1e-4),
+        roll_limit=1e-3, yaw_limit=1e-3, yaw_nodes=2,
+    )  # fmt: skip
+    places = running.WheelPlaces(np.ones(4), np.array([1, 1, 2, 2]), np.ones(4), 0.0, 0.0, 1.0, 1.0)
+    law = patch.contact_law(0.3, 0.4, 0.1, cells_along=2, strips=2)
+    return running.Contacts((zone, zone), law, places)
+
+
+def _wear(grid: fastsim.PatchGrid) -> None:
+    field, chart = traction_field.empty_field(grid), wear.WearChart().as_array()
+    semi_axis, flexibility = 5e-3, (1e-14, 1e-14, 1e-14)
+    traction_field.traction_field(
+        semi_axis, semi_axis, 4e4, 0.3, 0.0, 0.05, 1.0, flexibility, grid, field
+    )
+    worn_area = wear.archard_depth(field, 4.0, chart, np.empty(grid.offset.size))
+    wear.region_areas(field, 4.0, chart, np.empty(5))
+    wear.mean_depth(worn_area, semi_axis)
+
+
+def _bogie(contacts: running.Contacts) -> None:
+    """One step of a vehicle with a single mode."""
+    curvatures, local = np.zeros(3), np.zeros(40)
+    running.contact_forces(contacts, curvatures, local)
+    running.contact_jacobian(contacts, curvatures, local)
+    modal = integration.ModalContacts(
+        np.zeros((2, 40)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 40))
+    )
+    passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
+    round_wheels = integration.Excitation(0.0, np.zeros(4), np.zeros(4), np.zeros(2))
+    columns = np.array(integration.RECORDED)
+    integration.run(
+        modal, contacts, passage, round_wheels,
+        integration.step_table(np.array([-1.0 + 1.0j]), 1e-3), 1e-3, 1.0, 0, 0.0, np.zeros(2),
+        integration.workspace(contacts), np.empty((1, 40)),
+        np.empty((1, 4, len(contacts.tables), columns.size)), columns, 1,
+    )  # fmt: skip

@@ -83,19 +83,73 @@ def _step(x, width):
     return t * t * (3.0 - 2.0 * t)
 
 
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _ramp(x):
+    return 0.5 * x * x if x > 0.0 else 0.0
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
-def wear_coefficient(pressure, slip_velocity, chart):
-    """Dimensionless wear coefficient k for pressure in Pa and slip velocity in m/s."""
+def _share_above(excess, along, across):
+    """Share of a cell in which a linear field lies above a limit.
+
+    Parameters
+    ----------
+    excess : of the cell's middle over the limit
+    along, across : change of the field over the cell in both directions, absolute values
+    """
+    wide, narrow = max(along, across), min(along, across)
+    if wide <= 0.0:
+        return 1.0 if excess > 0.0 else 0.0
+    if narrow < 1e-6 * wide:
+        return min(max(excess / wide + 0.5, 0.0), 1.0)
+    outer, inner = 0.5 * (wide + narrow), 0.5 * (wide - narrow)
+    total = _ramp(excess + outer) - _ramp(excess + inner) - _ramp(excess - inner)
+    return min((total + _ramp(excess - outer)) / (wide * narrow), 1.0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wear_coefficient(
+    pressure, slip_velocity, chart, pressure_change=(0.0, 0.0), slip_change=(0.0, 0.0)
+):
+    """Dimensionless wear coefficient k of a cell.
+
+    Parameters
+    ----------
+    pressure : Pa; slip_velocity : m/s
+    chart : from `WearChart.as_array`
+    pressure_change, slip_change : change of both over the cell along and across the patch, not
+        negative. The chart's steps are averaged over the cell, exactly where the field is linear:
+        the wear of a patch then has no stairs.
+    """
     method = int(chart[11])
     if method == CONSTANT:
         return chart[10]
     if method == CHART:
-        return chart[1 + wear_region(pressure, slip_velocity, chart)]
-    low = _step(slip_velocity - chart[5], chart[8])
-    high = _step(slip_velocity - chart[6], chart[8])
+        # Shares below the limit, so that the limit itself counts as severe.
+        low = 1.0 - _share_above(chart[5] - slip_velocity, slip_change[0], slip_change[1])
+        high = _share_above(slip_velocity - chart[6], slip_change[0], slip_change[1])
+        excess = pressure - chart[7] * chart[0]
+        seizure = _share_above(excess, pressure_change[0], pressure_change[1])
+    else:
+        low = _step(slip_velocity - chart[5], chart[8])
+        high = _step(slip_velocity - chart[6], chart[8])
+        seizure = _step(pressure / chart[0] - chart[7], chart[9])
     k = chart[1] + low * (chart[2] - chart[1]) + high * (chart[3] - chart[2])
-    seizure = _step(pressure / chart[0] - chart[7], chart[9])
     return k + seizure * (chart[4] - k)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _slip(field, k, j):
+    return np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _changes(values, k, j, strips):
+    """Change of a field (along, strips) over a cell along and across the patch, in one cell."""
+    before, behind = max(k - 1, 0), min(k + 1, values.shape[0] - 1)
+    left, right = max(j - 1, 0), min(j + 1, strips - 1)
+    along = abs(values[behind, j] - values[before, j]) / (behind - before)
+    return along, abs(values[k, right] - values[k, left]) / (right - left)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -114,17 +168,28 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     worn_area : cross-section of removed material in m^2 (depth integrated across the patch;
         times 2 pi R the volume of one revolution).
     """
-    for j in range(strip_depth.size):
-        strip_depth[j] = 0.0
-    worn_area = 0.0
-    for k in range(field.area.shape[0]):
-        for j in range(field.area.shape[1]):
-            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
-            if slip == 0.0 or field.length_x[k, j] == 0.0:
+    strip_depth[:] = 0.0
+    slip, strips = np.empty(field.area.shape), 0
+    for j in range(slip.shape[1]):
+        strips += field.area[0, j] > 0.0  # padding strips come last
+        for k in range(slip.shape[0]):
+            slip[k, j] = _slip(field, k, j)
+    worn_area, speed = 0.0, abs(rolling_speed)
+    sharp = int(chart[11]) == CHART
+    pressure_change = slip_change = (0.0, 0.0)
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            if slip[k, j] == 0.0:
                 continue
             pressure = field.pressure[k, j]
-            coefficient = wear_coefficient(pressure, slip * abs(rolling_speed), chart)
-            depth = coefficient * pressure * slip * field.length_x[k, j] / chart[0]
+            if sharp:
+                pressure_change = _changes(field.pressure, k, j, strips)
+                along, across = _changes(slip, k, j, strips)
+                slip_change = speed * along, speed * across
+            coefficient = wear_coefficient(
+                pressure, speed * slip[k, j], chart, pressure_change, slip_change
+            )
+            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart[0]
             strip_depth[j] += depth
             worn_area += depth * field.area[k, j] / field.length_x[k, j]
     return worn_area
@@ -140,7 +205,7 @@ def region_areas(field, rolling_speed, chart, areas):
         areas[region] = 0.0
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
-            slip = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
+            slip = _slip(field, k, j)
             region = 4
             if slip > 0.0:
                 region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)

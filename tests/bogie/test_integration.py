@@ -36,9 +36,9 @@ class Run:
         zones = len(self.system.contacts.tables)
         results = np.empty((count, 4, zones, len(integration.RECORDED)))
         _, status, _, _ = integration.run(
-            self.basis, self.system.contacts,
-            integration.steady(self.basis, self.system.curvatures),
-            excitation or integration.no_excitation(self.basis),
+            self.basis.contact, self.system.contacts,
+            integration.steady(self.basis.eigenvalue.size, self.system.curvatures),
+            excitation or integration.no_excitation(self.basis, self.system.contacts),
             integration.step_table(self.basis.eigenvalue, interval), interval, tolerance, 0, 0.0,
             z, self.work, local, results, np.array(integration.RECORDED), 1,
         )  # fmt: skip
@@ -134,8 +134,8 @@ def test_frequency_response_agrees_with_a_simulation(line, running, frequency):
     linear = linearise(damped.curve, damped.equilibrium.state)
     matrix = 1j * turn * np.eye(len(linear.matrix)) - linear.matrix
     expected = linear.output @ np.linalg.solve(matrix, linear.input @ force)
-    excitation = integration.Excitation(
-        turn, np.zeros(4), np.zeros(4), integration.packed(run.basis.load @ force)
+    excitation = integration.no_excitation(run.basis, damped.curve.contacts)._replace(
+        angular_frequency=turn, force=integration.packed(run.basis.load @ force)
     )
     m = run.basis.eigenvalue.size
     # Start on the steady response, so that only the difference is a transient.
@@ -191,8 +191,10 @@ def test_radius_deviation_moves_the_wheel_up(line, running):
     """A crest of 10 um at a very low frequency lifts the rim by 10 um."""
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     run = Run(damped)
-    excitation = integration.Excitation(
-        0.0, np.array([0.0, 1e-5, 0.0, 0.0]), np.zeros(4), np.zeros(2 * run.basis.eigenvalue.size)
+    crest = np.zeros((4, 2))
+    crest[1] = 1e-5
+    excitation = integration.no_excitation(run.basis, damped.curve.contacts)._replace(
+        amplitude=crest
     )
     z = np.zeros(2 * run.basis.eigenvalue.size)
     local, _ = run(z, 4.0, 1e-3, excitation)

@@ -12,7 +12,7 @@ J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 an
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy  # its parts load when they are used: many short jobs need none
 
 X, Y, Z, ROLL, PITCH, YAW = range(6)
 NODE = 6
@@ -241,7 +241,7 @@ def flexible_axle(bogie, cutoff_frequency: float, elements_per_section: int) -> 
         mass[part, part] += lump_mass(stub.mass, inertia, at_stub)
         mass[part, part] += lump_mass(wheel.hub.mass, hub, at_hub)
     stiffness = sum(beam.stiffness.values())
-    square, vectors = eigh(stiffness, mass)
+    square, vectors = scipy.linalg.eigh(stiffness, mass)
     frequency = np.sqrt(np.maximum(square, 0.0)) / (2.0 * np.pi)
     # The first six are rigid-body motions.
     kept = np.flatnonzero(frequency[NODE:] <= cutoff_frequency) + NODE

@@ -93,13 +93,14 @@ def ride(route: Route, duration: float, interval: float, every: int, tolerance: 
         passage = (
             _passage(route, section, basis, system)
             if entered
-            else (integration.steady(basis, system.curvatures))
+            else integration.steady(basis.eigenvalue.size, system.curvatures)
         )
         z = integration.modal_state(basis, state)
         tables = integration.step_table(basis.eigenvalue, interval)
         part = slice(section.first // every, section.last // every)
         level, status, written, count = integration.run(
-            basis, contacts, passage, integration.no_excitation(basis), tables, interval,
+            basis.contact, contacts, passage, integration.no_excitation(basis, contacts), tables,
+            interval,
             tolerance, level, section.first * interval, z, work, local[part], results[part],
             columns, every,
         )  # fmt: skip

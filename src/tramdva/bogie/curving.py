@@ -8,7 +8,7 @@ import logging
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+import scipy  # its parts load when they are used: many short jobs need none
 
 from tramdva.bogie import running, track
 from tramdva.bogie.vehicle import WHEELS, Vehicle, frame_loads
@@ -83,8 +83,23 @@ class Linearisation(NamedTuple):
     input: np.ndarray
 
 
+def with_friction_decrease(system: System, B: float) -> System:
+    """Return the system with another friction decrease B in s/m."""
+    law = system.contacts.law
+    law = law._replace(friction=(*law.friction[:2], float(B)))
+    return system._replace(contacts=system.contacts._replace(law=law))
+
+
 def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Linearisation:
-    """Linearise about a state; the contact by central differences with scaled steps.
+    """Linearise about a state; the contact by central differences with scaled steps."""
+    jacobian = running.contact_jacobian(
+        system.contacts, system.curvatures, system.local(state), step_scale
+    )
+    return linearised(system, jacobian)
+
+
+def linearised(system: System, contact_jacobian: np.ndarray) -> Linearisation:
+    """Linearise a vehicle whose contacts have this Jacobian (24, 40).
 
     Notes
     -----
@@ -96,17 +111,14 @@ def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Lin
     k, vehicle = system.size, system.vehicle
     n = k + HUBS
     output = np.hstack([vehicle.local_position[:, :k], vehicle.local_velocity])
-    jacobian = running.contact_jacobian(
-        system.contacts, system.curvatures, system.local(state), step_scale
-    )
-    force = vehicle.force_input @ jacobian @ output
+    force = vehicle.force_input @ contact_jacobian @ output
     force[:, :k] -= vehicle.stiffness[:, :k]
     force[:, k:] -= vehicle.damping + vehicle.gyroscopic
     inverse = np.linalg.inv(vehicle.mass)
     matrix = np.zeros((k + n, k + n))
     matrix[:k, k : 2 * k] = np.eye(k)
     matrix[k:] = inverse @ force
-    return Linearisation(matrix, jacobian, output, np.vstack([np.zeros((k, n)), inverse]))
+    return Linearisation(matrix, contact_jacobian, output, np.vstack([np.zeros((k, n)), inverse]))
 
 
 class Equilibrium(NamedTuple):
@@ -141,7 +153,7 @@ def equilibrium(
     a contact changes by much more than its entry in `_LARGEST_CHANGE`: the first steps follow the
     vehicle into the curve, the last, of endless length, are Newton's.
     """
-    state, length, mass = start.copy(), 1e-3, lu_factor(system.vehicle.mass)
+    state, length, mass = start.copy(), 1e-3, scipy.linalg.lu_factor(system.vehicle.mass)
     rate = _rate(system, state, mass)
     change = np.inf
     for _ in range(max_iterations):
@@ -154,7 +166,7 @@ def equilibrium(
         if change > 3.0 or not np.isfinite(trial_rate).all():
             length *= 0.25
             continue
-        length *= min(max(1.0 / max(change, 1e-300), 0.5), 5.0)
+        length *= min(max(1.0 / max(change, 1e-300), 0.5), 100.0)
         state, rate = state + step, trial_rate
     residual = _unbalanced(rate)
     _, results = running.contact_forces(system.contacts, system.curvatures, system.local(state))
@@ -165,7 +177,7 @@ def equilibrium(
 
 def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:
     k = system.size
-    return np.concatenate([state[k : 2 * k], lu_solve(mass, system.forces(state))])
+    return np.concatenate([state[k : 2 * k], scipy.linalg.lu_solve(mass, system.forces(state))])
 
 
 def _unbalanced(rate: np.ndarray) -> float:

@@ -26,8 +26,22 @@ COMPLETED, CONTACT_LOST, OUTSIDE_PROFILE, NOT_FINITE = range(len(STATUS))
 RECORDED = (
     patch.NORMAL_FORCE, patch.CONTACT_ANGLE, patch.LONGITUDINAL_CREEPAGE, patch.LATERAL_CREEPAGE,
     patch.SPIN_CREEPAGE, patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL,
-    patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY,
+    patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY, patch.FRICTION,
 )  # fmt: skip
+
+
+class ModalContacts(NamedTuple):
+    """What the contacts are to the m modes near an equilibrium.
+
+    output : (2 m, 40), local variables of the contacts; forcing : (24, 2 m), from their forces
+    local, force, jacobian : (40,), (24,), (24, 40) at the equilibrium
+    """
+
+    output: np.ndarray
+    forcing: np.ndarray
+    local: np.ndarray
+    force: np.ndarray
+    jacobian: np.ndarray
 
 
 class ModalBasis(NamedTuple):
@@ -38,8 +52,7 @@ class ModalBasis(NamedTuple):
     eigenvalue : (m,) complex, 1/s
     state : (nx,) of the equilibrium; to_modal : (m, nx); to_state : (nx, m), real part counts
     load : (m, n) complex, modal forcing from generalised forces
-    output : (2 m, 40), local variables of the contacts; forcing : (24, 2 m), from their forces
-    local, force, jacobian : (40,), (24,), (24, 40) at the equilibrium
+    contact : ModalContacts, all that the compiled steps need
     """
 
     eigenvalue: np.ndarray
@@ -47,11 +60,7 @@ class ModalBasis(NamedTuple):
     to_modal: np.ndarray
     to_state: np.ndarray
     load: np.ndarray
-    output: np.ndarray
-    forcing: np.ndarray
-    local: np.ndarray
-    force: np.ndarray
-    jacobian: np.ndarray
+    contact: ModalContacts
 
 
 def modal_basis(system: System, equilibrium: Equilibrium) -> ModalBasis:
@@ -75,11 +84,13 @@ def modal_basis(system: System, equilibrium: Equilibrium) -> ModalBasis:
         left,
         right,
         load,
-        np.ascontiguousarray(np.vstack([output.real.T, -output.imag.T])),
-        np.ascontiguousarray(np.hstack([forcing.real.T, forcing.imag.T])),
-        system.local(equilibrium.state),
-        force,
-        linear.contact_jacobian,
+        ModalContacts(
+            np.ascontiguousarray(np.vstack([output.real.T, -output.imag.T])),
+            np.ascontiguousarray(np.hstack([forcing.real.T, forcing.imag.T])),
+            system.local(equilibrium.state),
+            force,
+            linear.contact_jacobian,
+        ),
     )
 
 
@@ -146,19 +157,28 @@ def _phi(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 class Excitation(NamedTuple):
     """Harmonic excitation at angular frequency (rad/s): cos(angular_frequency t + phase).
 
-    amplitude, phase : (4,) radius deviation of the wheels, m and rad
-    force : (2 m,) packed modal forcing, per second
+    The state that is integrated is the deviation from the linear response to the wheels' radius
+    deviations: where the vehicle is linear, the response is exact at any step.
+
+    amplitude, phase : (4, zones) radius deviation at the contacts of the wheels, m and rad
+    local : (2, 40), linear response of the local variables, real and imaginary part
+    contact_force : (2, 24), linear forces of the radius deviations themselves
+    force : (2 m,) packed modal forcing, per second, without the wheels' deviations
     """
 
     angular_frequency: float
     amplitude: np.ndarray
     phase: np.ndarray
+    local: np.ndarray
+    contact_force: np.ndarray
     force: np.ndarray
 
 
-def no_excitation(basis: ModalBasis) -> Excitation:
+def no_excitation(basis: ModalBasis, contacts: running.Contacts) -> Excitation:
     """Round wheels and no force."""
-    return Excitation(0.0, np.zeros(4), np.zeros(4), np.zeros(2 * basis.eigenvalue.size))
+    round_wheels, modal = np.zeros((4, len(contacts.tables))), np.zeros(2 * basis.eigenvalue.size)
+    local, force = np.zeros((2, 4 * running.LOCALS)), np.zeros((2, 4 * running.WHEEL_FORCES))
+    return Excitation(0.0, round_wheels, round_wheels, local, force, modal)
 
 
 class Passage(NamedTuple):
@@ -172,47 +192,66 @@ class Passage(NamedTuple):
     curvature: np.ndarray
 
 
-def steady(basis: ModalBasis, curvatures: np.ndarray) -> Passage:
-    """Passage of a track that does not change."""
-    load = np.zeros((4, 2 * basis.eigenvalue.size))
+def steady(modes: int, curvatures: np.ndarray) -> Passage:
+    """Passage of a track that does not change, for a number of modes."""
+    load = np.zeros((4, 2 * modes))
     return Passage(load, np.vstack([curvatures, np.zeros(3)]))
 
 
+# Functions that are called in one place are inlined: the rest of the chain is then compiled once
+# instead of once per level.
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _copy(source, target):
+    """Copy element by element: `target[:] = source` compiles seconds of error messages."""
+    for k in range(source.size):
+        target[k] = source[k]
+
+
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _locals_of(basis, z, local):
-    """Local variables of the contacts of a packed modal state."""
-    local[:] = basis.local
+def _locals_of(modal, excitation, z, time, local):
+    """Local variables of the contacts of a packed modal state at a time (s)."""
+    angle = excitation.angular_frequency * time
+    cosine, sine = np.cos(angle), np.sin(angle)
+    for j in range(local.size):
+        linear = cosine * excitation.local[0, j] - sine * excitation.local[1, j]
+        local[j] = modal.local[j] + linear
     for k in range(z.size):
         amount = z[k]
-        row = basis.output[k]
+        row = modal.output[k]
         for j in range(local.size):
             local[j] += amount * row[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _add_remainder(basis, local, force, forcing):
+def _add_remainder(modal, excitation, time, local, force, forcing):
     """Add the modal forcing by contact forces beyond their linearisation."""
+    angle = excitation.angular_frequency * time
+    cosine, sine = np.cos(angle), np.sin(angle)
     for i in range(force.size):
         wheel = i // running.WHEEL_FORCES
         start = running.LOCALS * wheel
-        remainder = force[i] - basis.force[i]
+        linear = cosine * excitation.contact_force[0, i] - sine * excitation.contact_force[1, i]
+        remainder = force[i] - modal.force[i] - linear
         for j in range(start, start + running.LOCALS):
-            remainder -= basis.jacobian[i, j] * (local[j] - basis.local[j])
-        row = basis.forcing[i]
+            remainder -= modal.jacobian[i, j] * (local[j] - modal.local[j])
+        row = modal.forcing[i]
         for k in range(forcing.size):
             forcing[k] += remainder * row[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _forcing(basis, contacts, passage, excitation, z, time, share, work, forcing):
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _forcing(modal, contacts, passage, excitation, z, time, share, work, forcing):
     """Modal forcing (2 m,) beyond the linearised vehicle at a time (s), share of the passage."""
     local, force, curvatures, deviation, rate, scratch, results = work
-    _locals_of(basis, z, local)
+    _locals_of(modal, excitation, z, time, local)
     turn = excitation.angular_frequency
     for w in range(4):
-        angle = turn * time + excitation.phase[w]
-        deviation[w] = excitation.amplitude[w] * np.cos(angle)
-        rate[w] = -turn * excitation.amplitude[w] * np.sin(angle)
+        for zone in range(deviation.shape[1]):
+            angle = turn * time + excitation.phase[w, zone]
+            deviation[w, zone] = excitation.amplitude[w, zone] * np.cos(angle)
+            rate[w, zone] = -turn * excitation.amplitude[w, zone] * np.sin(angle)
     for f in range(3):
         curvatures[f] = passage.curvature[0, f] + share * passage.curvature[1, f]
     running.all_wheel_forces(contacts, curvatures, local, deviation, rate, scratch, results, force)
@@ -221,7 +260,7 @@ def _forcing(basis, contacts, passage, excitation, z, time, share, work, forcing
     for k in range(z.size):
         forcing[k] = c[0, k] + share * (c[1, k] + share * (c[2, k] + share * c[3, k]))
         forcing[k] += cosine * excitation.force[k]
-    _add_remainder(basis, local, force, forcing)
+    _add_remainder(modal, excitation, time, local, force, forcing)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
@@ -239,8 +278,8 @@ def _turned(coefficient, z, out, add):
             out[k + m] = imag
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _step(basis, contacts, passage, excitation, table, z, time, share, h, rise, work, arrays):
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _step(modal, contacts, passage, excitation, table, z, time, share, h, rise, work, arrays):
     """One step of length h; z is advanced. Returns the difference to the second order.
 
     Notes
@@ -251,27 +290,31 @@ def _step(basis, contacts, passage, excitation, table, z, time, share, h, rise, 
         u_4 = WHOLE z + FIRST g_1 + 2 SECOND (g_3 - g_1)
         z   = WHOLE z + FIRST g_1 + SECOND (g_4 - g_1) + THIRD (g_1 - g_2 - g_3 + g_4)
     """
-    g_1, g_2, g_3, g_4, u, change = arrays
-    _forcing(basis, contacts, passage, excitation, z, time, share, work, g_1)
-    _turned(table[HALF], z, u, False)
-    _turned(table[HALF_FIRST], g_1, u, True)
-    middle = share + 0.5 * rise
-    _forcing(basis, contacts, passage, excitation, u, time + 0.5 * h, middle, work, g_2)
-    for k in range(z.size):
-        change[k] = g_2[k] - g_1[k]
-    _turned(table[HALF_SECOND], change, u, True)
-    _forcing(basis, contacts, passage, excitation, u, time + 0.5 * h, middle, work, g_3)
-    _turned(table[WHOLE], z, u, False)
-    _turned(table[FIRST], g_1, u, True)
-    z[:] = u
-    for k in range(z.size):
-        change[k] = 2.0 * (g_3[k] - g_1[k])
-    _turned(table[SECOND], change, u, True)
-    _forcing(basis, contacts, passage, excitation, u, time + h, share + rise, work, g_4)
-    for k in range(z.size):
-        change[k] = g_4[k] - g_1[k]
-        u[k] = g_1[k] - g_2[k] - g_3[k] + g_4[k]
+    g, u, change = arrays
+    _copy(z, u)
+    for stage in range(4):
+        # One call in a loop: what is called in four places takes four times as long to compile.
+        done = 0.5 * ((stage + 1) // 2)
+        _forcing(
+            modal, contacts, passage, excitation, u, time + done * h, share + done * rise, work,
+            g[stage],
+        )  # fmt: skip
+        factor = 2.0 if stage == 2 else 1.0
+        for k in range(z.size):
+            change[k] = factor * (g[stage, k] - g[0, k])
+        if stage == 0:
+            _turned(table[HALF], z, u, False)
+            _turned(table[HALF_FIRST], g[0], u, True)
+        elif stage == 1:
+            _turned(table[HALF_SECOND], change, u, True)
+        elif stage == 2:
+            _turned(table[WHOLE], z, u, False)
+            _turned(table[FIRST], g[0], u, True)
+            _copy(u, z)
+            _turned(table[SECOND], change, u, True)
     _turned(table[SECOND], change, z, True)
+    for k in range(z.size):
+        u[k] = g[0, k] - g[1, k] - g[2, k] + g[3, k]
     _turned(table[THIRD], u, change, False)
     error = 0.0
     for k in range(z.size):
@@ -280,7 +323,7 @@ def _step(basis, contacts, passage, excitation, table, z, time, share, h, rise, 
     return np.sqrt(error)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def _worst(results):
     """Status of the contacts in the last evaluation."""
     worst = COMPLETED
@@ -297,14 +340,14 @@ def _worst(results):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def run(
-    basis, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
+    modal, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
     locals_out, results_out, columns, every,
 ):  # fmt: skip
     """Integrate over `locals_out.shape[0] * every` intervals; z is advanced.
 
     Parameters
     ----------
-    basis, contacts, passage, excitation : see there
+    modal : ModalContacts; contacts, passage, excitation : see there
     tables : from `step_table`; interval : s
     tolerance : largest difference to the second order per interval, m/s (norm over the modes)
     level : first level of the steps
@@ -318,30 +361,27 @@ def run(
     -------
     level, status, outputs written, number of evaluations of the contacts.
     """
-    m2 = z.size
-    arrays = (
-        np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2), np.empty(m2),
-    )  # fmt: skip
-    saved = np.empty(m2)
+    arrays = (np.empty((4, z.size)), np.empty(z.size), np.empty(z.size))
+    saved = np.empty(z.size)
     total = locals_out.shape[0] * every
     evaluations, status = 0, COMPLETED
     results = work[6]
     for i in range(total):
-        saved[:] = z
+        _copy(z, saved)
         while True:
             steps = 1 << level
             h, rise = interval / steps, 1.0 / (total * steps)
             error = 0.0
             for s in range(steps):
                 error += _step(
-                    basis, contacts, passage, excitation, tables[level], z,
+                    modal, contacts, passage, excitation, tables[level], z,
                     time + (i + s / steps) * interval, i / total + s * rise, h, rise, work, arrays,
                 )  # fmt: skip
             evaluations += 4 * steps
             if error <= tolerance or level == LEVELS - 1:
                 break
             level += 1
-            z[:] = saved
+            _copy(saved, z)
         if not np.isfinite(error):
             return level, NOT_FINITE, i // every, evaluations
         now = _worst(results)
@@ -350,7 +390,7 @@ def run(
         status = max(status, now)
         if (i + 1) % every == 0:
             k = i // every
-            _locals_of(basis, z, locals_out[k])
+            _locals_of(modal, excitation, z, time + (i + 1) * interval, locals_out[k])
             for wheel in range(results.shape[0]):
                 for zone in range(results.shape[1]):
                     for c in range(columns.size):
@@ -364,6 +404,5 @@ def run(
 def workspace(contacts: running.Contacts) -> tuple:
     """Scratch arrays for `run`."""
     scratch, results = running.workspace(contacts)
-    return (
-        np.empty(40), np.empty(24), np.empty(3), np.empty(4), np.empty(4), scratch, results,
-    )  # fmt: skip
+    deviation, rate = np.empty((2, 4, len(contacts.tables)))
+    return np.empty(40), np.empty(24), np.empty(3), deviation, rate, scratch, results

@@ -15,12 +15,10 @@ from tramdva.bogie.curving import (
     resting_start,
     system_on,
 )
+from tramdva.bogie.rough_wheel_files import TABLE_FIELDS, contact_tables
 from tramdva.bogie.vehicle import build_vehicle
-from tramdva.bogie_parameters import Bogie, BogieAbsorber, ContactGeometry, Track
+from tramdva.bogie_parameters import BareBogie, Bogie, BogieAbsorber, ContactGeometry, Track
 from tramdva.contact import patch
-from tramdva.contact.geometry import ContactTable
-
-TABLE_FIELDS = ContactTable._fields
 
 
 class BogieLine(NamedTuple):
@@ -32,7 +30,7 @@ class BogieLine(NamedTuple):
     cutoff_frequency : Hz; elements_per_section : of the axle bridge
     """
 
-    bogie: Bogie
+    bogie: BareBogie
     track: Track
     contact_geometry: ContactGeometry
     friction: tuple[float, float, float]
@@ -55,26 +53,18 @@ def contact_geometry(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 def bogie_line(cfg: Mapping[str, Any], tables: Mapping[str, np.ndarray]) -> BogieLine:
     """Bogie of a line from its configuration and the variables of ``contact_geometry.nc``."""
-    zones = zip(*(tables[name] for name in TABLE_FIELDS), strict=True)
     force, numerics = cfg["creep_force"], cfg["numerics"]
+    bogie = Bogie if "absorber" in cfg["bogie"] else BareBogie
     return BogieLine(
-        Bogie.model_validate(cfg["bogie"]),
+        bogie.model_validate(cfg["bogie"]),
         Track.model_validate(cfg["track"]),
         ContactGeometry.model_validate(cfg["contact_geometry"]),
         (force["mu_0"], force["A"], force["B"]),
-        tuple(
-            ContactTable(*(float(part) if part.ndim == 0 else part.copy() for part in zone))
-            for zone in zones
-        ),
+        contact_tables(tables),
         (numerics["cells_along"], numerics["strips"]),
         numerics["cutoff_frequency"],
         numerics["elements_per_section"],
     )
-
-
-def with_friction_decrease(line: BogieLine, B: float) -> BogieLine:
-    """Return the line with another friction decrease B in s/m."""
-    return line._replace(friction=(*line.friction[:2], B))
 
 
 def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
@@ -90,17 +80,22 @@ def track_line(line: BogieLine, start: float = 0.0) -> track.TrackLine:
     return track.TrackLine(start, t.transition_length, 1.0 / t.radius, t.cant)
 
 
-def systems(line: BogieLine, design: BogieAbsorber | None, shares) -> list[System]:
-    """The vehicle on tracks with shares of the full curvature and cant."""
-    vehicle = build_vehicle(
-        line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
-    )
+def contacts_of(line: BogieLine) -> running.Contacts:
+    """Contacts of the vehicle's wheels."""
     material = line.contact_geometry.material
     law = patch.contact_law(
         *line.friction, material.youngs_modulus, material.poisson_ratio, *line.grid
     )
     places = running.wheel_places(line.bogie, line.contact_geometry, line.track.speed)
-    contacts = running.Contacts(line.tables, law, places)
+    return running.Contacts(line.tables, law, places)
+
+
+def systems(line: BogieLine, design: BogieAbsorber | None, shares) -> list[System]:
+    """The vehicle on tracks with shares of the full curvature and cant."""
+    vehicle = build_vehicle(
+        line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
+    )
+    contacts = contacts_of(line)
     full = track_line(line)
     inside = full.transition + 10.0 * line.bogie.half_wheelbase
     return [

@@ -1,15 +1,21 @@
 """Modes of the vehicle on the track: names, growth rates, critical friction decrease, tuning."""
 
-import itertools
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq, minimize
 
-from tramdva.bogie.curving import System, linearise
-from tramdva.bogie.line import BogieLine, Running, absorber, changed, with_friction_decrease
-from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS
+from tramdva.bogie.curving import (
+    Linearisation,
+    System,
+    equilibrium,
+    linearise,
+    linearised,
+    with_friction_decrease,
+)
+from tramdva.bogie.line import BogieLine, Running, changed
+from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS, with_absorber_values
+from tramdva.bogie_parameters import BogieAbsorber
 
 NAME_OF_CLASS = {
     "symmetric_bending": "third_bending",
@@ -22,9 +28,11 @@ NAME_OF_CLASS = {
     "car_support": "car_body",
     "absorber": "absorber",
 }
-# The first bending mode is the one of most symmetric bending below this frequency; it bends the
-# primary suspension more than the beam, so that its own class would not name it.
+# The first bending modes are the two of most symmetric bending below this frequency; they bend the
+# primary suspension more than the beam, so that their own class would not name them.
 FIRST_BENDING_BELOW = 40.0  # Hz
+OWN_AXLE = 0.8  # a mode with more of its class's strain energy at one axle is that axle's
+ALIKE = 0.5  # axles that are less correlated do not move in or out of phase
 
 
 class Modes(NamedTuple):
@@ -32,7 +40,7 @@ class Modes(NamedTuple):
 
     eigenvalue : (k,) 1/s; shape : (n, k) displacements
     share : (k, classes, 3) of the strain energy in front axle, rear axle, elsewhere
-    name : k texts, class and axle
+    name : k texts: class, then front or rear, or how both axles move: in_phase, opposed, both_axles
     """
 
     eigenvalue: np.ndarray
@@ -53,7 +61,12 @@ class Modes(NamedTuple):
 
 def modes(system: System, state: np.ndarray, limits: tuple[float, float]) -> Modes:
     """Modes of the vehicle linearised at a state, with frequencies (Hz) within limits."""
-    values, vectors = np.linalg.eig(linearise(system, state).matrix)
+    return modes_of(system, linearise(system, state), limits)
+
+
+def modes_of(system: System, linear: Linearisation, limits: tuple[float, float]) -> Modes:
+    """Modes of the linearised vehicle with frequencies (Hz) within limits."""
+    values, vectors = np.linalg.eig(linear.matrix)
     frequency = values.imag / (2.0 * np.pi)
     kept = np.flatnonzero((frequency > limits[0]) & (frequency < limits[1]))
     kept = kept[np.argsort(frequency[kept])]
@@ -61,7 +74,7 @@ def modes(system: System, state: np.ndarray, limits: tuple[float, float]) -> Mod
     shape = vectors[:k, kept]
     shape = shape / np.abs(shape).max(axis=0)
     share = strain_energy_share(system, shape)
-    return Modes(values[kept], shape, share, _names(share, frequency[kept]))
+    return Modes(values[kept], shape, share, _names(system, shape, share, frequency[kept]))
 
 
 def strain_energy_share(system: System, shape: np.ndarray) -> np.ndarray:
@@ -70,23 +83,64 @@ def strain_energy_share(system: System, shape: np.ndarray) -> np.ndarray:
     energy = np.zeros((shape.shape[1], len(ENERGY_CLASSES), 3))
     for (kind, axle), stiffness in system.vehicle.strain.items():
         place = (*AXLES, "").index(axle)
-        work = np.einsum("im,ij,jm->m", shape.conj(), stiffness[:k, :k], shape).real
-        energy[:, ENERGY_CLASSES.index(kind), place] += work
+        work = np.sum(shape.conj() * (stiffness[:k, :k] @ shape), axis=0)
+        energy[:, ENERGY_CLASSES.index(kind), place] += work.real
     return energy / energy.sum(axis=(1, 2), keepdims=True)
 
 
-def _names(share: np.ndarray, frequency: np.ndarray) -> tuple[str, ...]:
-    names = []
-    for mode in share:
-        kind, place = np.unravel_index(np.argmax(mode), mode.shape)
-        name = NAME_OF_CLASS[ENERGY_CLASSES[kind]]
-        names.append(f"{name}_{AXLES[place]}" if place < len(AXLES) else name)
-    low = np.flatnonzero(frequency < FIRST_BENDING_BELOW)
+def _names(
+    system: System, shape: np.ndarray, share: np.ndarray, frequency: np.ndarray
+) -> tuple[str, ...]:
+    """Name modes by the class of largest strain energy in the whole vehicle, and by axle."""
+    kinds = share.sum(axis=2).argmax(axis=1)
+    words = [NAME_OF_CLASS[ENERGY_CLASSES[kind]] for kind in kinds]
     bending = ENERGY_CLASSES.index("symmetric_bending")
-    for place, axle in enumerate(AXLES):
-        if low.size:
-            names[low[np.argmax(share[low, bending, place])]] = f"first_bending_{axle}"
-    return tuple(names)
+    low = np.flatnonzero(frequency < FIRST_BENDING_BELOW)
+    for mode in low[np.argsort(share[low, bending].sum(axis=1))[-len(AXLES) :]]:
+        kinds[mode], words[mode] = bending, "first_bending"
+    return tuple(
+        word + _axle_suffix(system, shape[:, mode], share[mode, kinds[mode]])
+        for mode, word in enumerate(words)
+    )
+
+
+def _axle_suffix(system: System, shape: np.ndarray, share: np.ndarray) -> str:
+    """Tell which axle a mode with `share` (3,) of a class moves, or how both do.
+
+    On straight track the axles are nearly alike: their modes come in pairs that move both.
+    """
+    front, rear, elsewhere = share
+    if elsewhere > front + rear:
+        return ""
+    if max(front, rear) > OWN_AXLE * (front + rear):
+        return f"_{AXLES[int(rear > front)]}"
+    alike = axle_correlation(system, shape)
+    if abs(alike) < ALIKE:
+        return "_both_axles"
+    return "_in_phase" if alike > 0.0 else "_opposed"
+
+
+def of_front_axle(found: Modes, word: str) -> int | None:
+    """Index of the lowest mode whose name begins with a word and that moves the front axle."""
+    fitting = (
+        k for k, name in enumerate(found.name) if name.startswith(word) and name != f"{word}_rear"
+    )
+    return next(fitting, None)
+
+
+def axle_correlation(system: System, shape: np.ndarray) -> float:
+    """Correlation of the motions of both axles with their rims in a mode, -1 .. 1; by mass."""
+    names, k = system.vehicle.names, system.size
+    front, rear = (
+        [i for i, name in enumerate(names[:k]) if name.startswith(f"{axle}_")] for axle in AXLES
+    )
+    mass = system.vehicle.mass[np.ix_(front, front)]
+
+    def product(a: np.ndarray, b: np.ndarray) -> float:
+        return float((a.conj() @ mass @ b).real)
+
+    a, b = shape[front], shape[rear]
+    return product(a, b) / np.sqrt(product(a, a) * product(b, b))
 
 
 class Critical(NamedTuple):
@@ -100,54 +154,88 @@ def critical_oscillation(
     system: System, state: np.ndarray, limits: tuple[float, float]
 ) -> Critical:
     """Largest growth rate of the oscillations with frequencies (Hz) within limits."""
-    values = np.linalg.eigvals(linearise(system, state).matrix)
+    return critical_of(linearise(system, state), limits)
+
+
+def critical_of(linear: Linearisation, limits: tuple[float, float]) -> Critical:
+    """Largest growth rate of the linearised vehicle's oscillations within limits (Hz)."""
+    values = np.linalg.eigvals(linear.matrix)
     frequency = values.imag / (2.0 * np.pi)
     values = values[(frequency > limits[0]) & (frequency < limits[1])]
     top = values[np.argmax(values.real)]
     return Critical(float(top.real), float(top.imag / (2.0 * np.pi)))
 
 
-def critical_friction_decrease(
-    line: BogieLine, known: Running, design, limits: tuple[float, float], largest: float
-) -> float:
-    """Friction decrease B (s/m) at which self-excitation sets in; NaN if not below `largest`.
+def at_friction(system: System, state: np.ndarray, B: float) -> Linearisation:
+    """Linearise at the equilibrium for another friction decrease B (s/m), from a known state."""
+    other = with_friction_decrease(system, B)
+    return linearise(other, equilibrium(other, state).state)
 
-    Brackets it in steps of 0.2 s/m, then by Brent's method to 1e-4 s/m.
+
+def critical_friction_decrease(
+    system: System,
+    state: np.ndarray,
+    limits: tuple[float, float],
+    decrease: np.ndarray,
+    growth: np.ndarray,
+) -> float:
+    """Friction decrease B (s/m) at which self-excitation sets in, to 1e-4 s/m; NaN if nowhere.
+
+    Parameters
+    ----------
+    system, state : with its equilibrium at any friction decrease
+    limits : Hz, of the oscillations that count
+    decrease, growth : (k,) s/m and 1/s, between which of them the growth rate changes sign
+    """
+    onset = np.flatnonzero((growth[:-1] < 0.0) & (growth[1:] >= 0.0))
+    if not onset.size:
+        return float("nan")
+    return float(
+        brentq(
+            lambda B: critical_of(at_friction(system, state, B), limits).growth_rate,
+            *decrease[onset[0] : onset[0] + 2],
+            xtol=1e-4,
+        )
+    )
+
+
+class AbsorberFamily(NamedTuple):
+    """A bogie with its absorbers at a state of equilibrium, for any stiffness and damping of them.
+
+    At rest an absorber transmits its weight, whatever its stiffness and damping: rims, contacts
+    and their Jacobian are the same for all. A rotating one transmits nothing.
+
+    system : with the absorbers `design`; contact_jacobian : (24, 40)
     """
 
-    def growth(B: float) -> float:
-        run = changed(with_friction_decrease(line, B), design, known)
-        return critical_oscillation(run.curve, run.equilibrium.state, limits).growth_rate
+    system: System
+    design: BogieAbsorber
+    contact_jacobian: np.ndarray
 
-    grid = np.arange(0.0, largest + 0.1, 0.2)
-    before = growth(grid[0])
-    for low, high in itertools.pairwise(grid):
-        after = growth(high)
-        if before < 0.0 <= after:
-            return float(brentq(growth, low, high, xtol=1e-4))
-        before = after
-    return float("nan")
+    def member(self, c_T: float, d_T: float) -> tuple[System, Linearisation]:
+        """System and linearisation with a stiffness (N m/rad, N/m) and damping (N m s/rad)."""
+        vehicle = with_absorber_values(self.system.vehicle, self.design, c_T, d_T)
+        system = self.system._replace(vehicle=vehicle)
+        return system, linearised(system, self.contact_jacobian)
 
 
-def growth_with(
-    line: BogieLine, known: Running, limits: tuple[float, float]
-) -> Callable[[float, float], float]:
-    """Growth rate of the critical oscillation over stiffness and damping of the absorber."""
-
-    def growth(c_T: float, d_T: float) -> float:
-        run = changed(line, absorber(line, c_T, d_T), known)
-        return critical_oscillation(run.curve, run.equilibrium.state, limits).growth_rate
-
-    return growth
+def absorber_family(line: BogieLine, known: Running) -> AbsorberFamily:
+    """Absorbers of the line in the curve."""
+    design = line.bogie.absorber
+    run = changed(line, design, known)
+    linear = linearise(run.curve, run.equilibrium.state)
+    return AbsorberFamily(run.curve, design, linear.contact_jacobian)
 
 
 def tuned_absorber(
-    line: BogieLine, known: Running, limits: tuple[float, float], start: tuple[float, float]
+    family: AbsorberFamily, limits: tuple[float, float], start: tuple[float, float]
 ) -> tuple[float, float]:
     """Stiffness and damping that damp antisymmetric bending most; inertia as configured.
 
     Parameters
     ----------
+    family : AbsorberFamily
+    limits : Hz, of the oscillations that count
     start : stiffness (N m/rad, or N/m) and damping (N m s/rad, or N s/m)
 
     Notes
@@ -158,8 +246,7 @@ def tuned_absorber(
     classes = [ENERGY_CLASSES.index(name) for name in ("antisymmetric_bending", "absorber")]
 
     def growth(c_T: float, d_T: float) -> float:
-        run = changed(line, absorber(line, c_T, d_T), known)
-        found = modes(run.curve, run.equilibrium.state, limits)
+        found = modes_of(*family.member(c_T, d_T), limits)
         reached = found.share[:, classes].sum(axis=(1, 2)) > 0.5
         return float(found.eigenvalue.real[reached].max()) if reached.any() else np.inf
 

@@ -132,7 +132,8 @@ def wheel_forces(
     wheel : index in `vehicle.WHEELS`
     curvature : 1/m at the axle's frame
     local : (10,) local variables of the wheel
-    deviation, deviation_rate : m and m/s, radius deviation at the contact, crest positive
+    deviation, deviation_rate : (zones,) m and m/s, radius deviation at the contact of each zone,
+        crest positive
     scratch : (rows, work) of `patch.contact_workspace`
     results : (zones, COLUMNS), receives the results of each zone
     force : (6,), receives the forces
@@ -164,7 +165,7 @@ def wheel_forces(
             continue
         f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
             contacts.tables[zone], contacts.law, side, position, (roll, yaw), velocity, rotation,
-            rolling, deviation, deviation_rate, scratch[0], scratch[1], result,
+            rolling, deviation[zone], deviation_rate[zone], scratch[0], scratch[1], result,
         )  # fmt: skip
         if result[patch.PENETRATION] < 0.0:
             # A zone that does not touch may lie outside its table.
@@ -184,7 +185,7 @@ def all_wheel_forces(
 ):
     """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
 
-    `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4,).
+    `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4, zones).
     """
     for wheel in range(4):
         wheel_forces(
@@ -207,16 +208,21 @@ _STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6])
 @njit(cache=True, nogil=True, error_model="numpy")
 def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
     """Fill jacobian (4, 6, 10) by central differences with `steps` (10,)."""
-    shifted, up, down = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.empty(WHEEL_FORCES)
+    shifted, force = np.empty(LOCALS), np.empty(WHEEL_FORCES)
+    zero = np.zeros(len(contacts.tables))
+    jacobian[:] = 0.0
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
         for k in range(LOCALS):
-            shifted[:] = local[LOCALS * wheel : LOCALS * (wheel + 1)]
-            shifted[k] += steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], up)
-            shifted[k] -= 2.0 * steps[k]
-            wheel_forces(contacts, wheel, curvature, shifted, 0.0, 0.0, scratch, results[0], down)
-            jacobian[wheel, :, k] = (up - down) / (2.0 * steps[k])
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                shifted[k] += sign * steps[k]
+                wheel_forces(
+                    contacts, wheel, curvature, shifted, zero, zero, scratch, results[0], force
+                )
+                for i in range(WHEEL_FORCES):
+                    jacobian[wheel, i, k] += sign * force[i] / (2.0 * steps[k])
 
 
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
@@ -230,7 +236,7 @@ def contact_forces(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Forces (24,) and results (4, zones, COLUMNS) at local variables (40,) with round wheels."""
     scratch, results = workspace(contacts)
-    force, zero = np.empty(4 * WHEEL_FORCES), np.zeros(4)
+    force, zero = np.empty(4 * WHEEL_FORCES), np.zeros((4, len(contacts.tables)))
     all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
     return force, results
 
@@ -247,3 +253,75 @@ def contact_jacobian(
         rows = slice(WHEEL_FORCES * wheel, WHEEL_FORCES * (wheel + 1))
         jacobian[rows, LOCALS * wheel : LOCALS * (wheel + 1)] = block
     return jacobian
+
+
+# Steps of the radius deviation (m) and its rate (m/s).
+_DEVIATION_STEPS = (1e-8, 1e-6)
+
+
+class RadiusSensitivity(NamedTuple):
+    """Derivatives of contact results and wheel forces in the small.
+
+    local : (4, zones, RESULTS, 10), results in the local variables of their wheel
+    deviation : (4, zones, RESULTS, 2), in the zone's radius deviation (m) and its rate (m/s)
+    force : (4, zones, 6, 2), forces on the wheel in a zone's radius deviation and its rate
+    """
+
+    local: np.ndarray
+    deviation: np.ndarray
+    force: np.ndarray
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sensitivity(contacts, curvatures, local, steps, scratch, results, out):
+    """Fill the arrays `out` of a `RadiusSensitivity` by central differences with `steps` (12,).
+
+    Variable k of 0 to 9 is local, 10 and 11 are radius deviation and rate, zone by zone.
+    """
+    by_local, by_deviation, by_force = out
+    zones = len(contacts.tables)
+    shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
+    for wheel in range(4):
+        curvature = curvatures[contacts.places.axle[wheel]]
+        for case in range(LOCALS + 2 * zones):
+            k = case if case < LOCALS else LOCALS + (case - LOCALS) // zones
+            zone = (case - LOCALS) % zones
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                for j in range(zones):
+                    radius[0, j] = radius[1, j] = 0.0
+                if k < LOCALS:
+                    shifted[k] += sign * steps[k]
+                else:
+                    radius[k - LOCALS, zone] = sign * steps[k]
+                wheel_forces(
+                    contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
+                    results[0], force,
+                )  # fmt: skip
+                scale = sign / (2.0 * steps[k])
+                for c in range(patch.RESULTS):
+                    if k < LOCALS:
+                        for j in range(zones):
+                            by_local[wheel, j, c, k] += scale * results[0, j, c]
+                    else:
+                        by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
+                if k >= LOCALS:
+                    for i in range(WHEEL_FORCES):
+                        by_force[wheel, zone, i, k - LOCALS] += scale * force[i]
+
+
+def radius_sensitivity(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
+) -> RadiusSensitivity:
+    """Sensitivity of the contacts at local variables (40,); `scale` of the steps."""
+    scratch, results = workspace(contacts)
+    zones = len(contacts.tables)
+    out = RadiusSensitivity(
+        np.zeros((4, zones, patch.RESULTS, LOCALS)),
+        np.zeros((4, zones, patch.RESULTS, 2)),
+        np.zeros((4, zones, WHEEL_FORCES, 2)),
+    )
+    steps = scale * np.append(_STEPS, _DEVIATION_STEPS)
+    _sensitivity(contacts, curvatures, local, steps, scratch, results, tuple(out))
+    return out

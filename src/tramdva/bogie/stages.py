@@ -16,14 +16,15 @@ from tramdva.bogie.line import (
     changed,
     run_through,
     track_line,
-    with_friction_decrease,
 )
 from tramdva.bogie.modes import Modes
+from tramdva.bogie.rough_wheel_files import variables, zone_names
+from tramdva.bogie.rough_wheels import rough_bogie
 from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS
 from tramdva.contact import patch
 
 DESIGNS = ("none", "paper", "tuned")
-ZONES = ("tread", "flange")
+SHAPES = ("first_bending", "second_bending", "third_bending", "resilient_wheel")  # shown
 CONTACT_VARIABLES = {
     "normal_force": patch.NORMAL_FORCE,
     "contact_angle": patch.CONTACT_ANGLE,
@@ -36,10 +37,6 @@ CONTACT_VARIABLES = {
     "wheel_position": patch.WHEEL_POSITION,
     "forward_shift": patch.FORWARD_SHIFT,
 }
-
-
-def _zone_names(count: int) -> list[str]:
-    return [ZONES[k] if k < len(ZONES) else f"zone_{k + 1}" for k in range(count)]
 
 
 def curving_equilibrium(
@@ -64,7 +61,7 @@ def curving_equilibrium(
     runs = [changed(line, absorber(line, *design), none) for design in designs]
     results = np.array([run.equilibrium.results for run in runs])
     touching = results[..., patch.STATUS] != patch.NO_CONTACT
-    zones = _zone_names(results.shape[2])
+    zones = zone_names(results.shape[2])
     contacts = len(WHEELS) * len(zones)
     stiffness, damping = np.array(designs).T
     inertia = np.where(np.isnan(stiffness), np.nan, line.bogie.absorber.I_T)
@@ -104,7 +101,8 @@ def _designs(line: BogieLine, none: Running, cfg, tuning) -> list[tuple[float, f
         start = modal.carried_over(own.I_T, tuning["m_T"][k], tuning["c_T"][k], tuning["d_T"][k])
     # Without an equilibrium there is nothing to tune, and each trial would fail slowly.
     if none.equilibrium.status == "converged":
-        start = modal.tuned_absorber(line, none, _limits(cfg), start)
+        family = modal.absorber_family(line, none)
+        start = modal.tuned_absorber(family, _limits(cfg), start)
     return [(np.nan, np.nan), (own.c_T, own.d_T), start]
 
 
@@ -136,28 +134,20 @@ def bogie_modes(
     runs = _known_runs(cfg, line, curving_equilibrium)
     limits, shown = _limits(cfg), (1.0, cfg["study"]["frequency"]["max"])
     decrease = np.linspace(0.0, cfg["study"]["B_max"], cfg["numerics"]["friction_points"])
-    names = curving_equilibrium["absorber"]
-    table = {}
+    table, critical = {}, []
     for i, run in enumerate(runs):
-        design = absorber(line, curving_equilibrium["c_T"][i], curving_equilibrium["d_T"][i])
-        for j, B in enumerate(decrease):
-            other = changed(with_friction_decrease(line, B), design, run)
-            table[i, j] = modal.modes(other.curve, other.equilibrium.state, shown)
-    critical = [
-        modal.critical_friction_decrease(
-            line, run, absorber(line, c, d), limits, cfg["study"]["B_max"]
-        )
-        for run, c, d in zip(
-            runs, curving_equilibrium["c_T"], curving_equilibrium["d_T"], strict=True
-        )
-    ]
+        system, state = run.curve, run.equilibrium.state
+        sweep = [modal.at_friction(system, state, B) for B in decrease]
+        table |= {(i, j): modal.modes_of(system, step, shown) for j, step in enumerate(sweep)}
+        growth = np.array([modal.critical_of(step, limits).growth_rate for step in sweep])
+        critical.append(modal.critical_friction_decrease(system, state, limits, decrease, growth))
     operating = [
         modal.critical_oscillation(run.curve, run.equilibrium.state, limits) for run in runs
     ]
     return {
         **{name: curving_equilibrium[name] for name in ("absorber", "m_T", "c_T", "d_T")},
         "friction_decrease": decrease,
-        **_mode_table(table, len(names), len(decrease)),
+        **_mode_table(table, len(runs), len(decrease)),
         "operating_growth_rate": np.array([c.growth_rate for c in operating]),
         "operating_frequency": np.array([c.frequency for c in operating]),
         "critical_friction_decrease": np.array(critical),
@@ -188,33 +178,42 @@ def _absorber_map(cfg, line: BogieLine, none: Running, limits) -> dict[str, np.n
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    growth = modal.growth_with(line, none, limits)
-    return {
-        "map_d_T": d_T,
-        "map_c_T": c_T,
-        "map_growth_rate": np.array([[growth(c, d) for c in c_T] for d in d_T]),
-    }
+    family = modal.absorber_family(line, none)
+    growth = [
+        [modal.critical_of(family.member(c, d)[1], limits).growth_rate for c in c_T] for d in d_T
+    ]
+    return {"map_d_T": d_T, "map_c_T": c_T, "map_growth_rate": np.array(growth)}
 
 
 def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
-    """Motion of both axles in their named modes at the operating friction."""
+    """Motion of the front axle in the modes of `SHAPES` at the operating friction.
+
+    A mode that is not there keeps its word as name, and NaN.
+    """
     found = modal.modes(none.curve, none.equilibrium.state, shown)
-    wanted = ("first_bending", "second_bending", "third_bending", "resilient_wheel")
-    names = [f"{name}_front" for name in wanted]
-    chosen = [found.name.index(name) if name in found.name else -1 for name in names]
     positions, motion = modal.axle_points(none.curve, "front")
-    k = none.curve.size
-    shape = np.array([motion[..., :k] @ found.shape[:, i] for i in chosen])
-    shape = shape / np.abs(shape[:, :, :3]).max(axis=(1, 2), keepdims=True)
+    k, count = none.curve.size, len(SHAPES)
+    names, numbers = list(SHAPES), np.full((2, count), np.nan)
+    shape = np.full((count, *motion.shape[:2]), np.nan, dtype=complex)
+    energy = np.full((count, len(ENERGY_CLASSES)), np.nan)
+    for row, word in enumerate(SHAPES):
+        mode = modal.of_front_axle(found, word)
+        if mode is None:
+            continue
+        moved = motion[..., :k] @ found.shape[:, mode]
+        names[row] = found.name[mode]
+        numbers[:, row] = found.frequency[mode], found.damping_ratio[mode]
+        shape[row] = moved / np.abs(moved[:, :3]).max()
+        energy[row] = found.share[mode].sum(axis=1)
     return {
         "shape_mode": np.array(names),
-        "shape_frequency": found.frequency[chosen],
-        "shape_damping_ratio": found.damping_ratio[chosen],
+        "shape_frequency": numbers[0],
+        "shape_damping_ratio": numbers[1],
         "point_position": positions,
         "shape_real": shape.real,
         "shape_imag": shape.imag,
         "energy_class": np.array(ENERGY_CLASSES),
-        "strain_energy_share": found.share[chosen].sum(axis=2),
+        "strain_energy_share": energy,
     }
 
 
@@ -272,4 +271,46 @@ def curve_entry(
         "normal_force": normal,
         "evaluations": np.array([float(ride.evaluations) for ride in rides]),
         "status": np.array([ride.status for ride in rides]),
+    }
+
+
+def bogie_linearisation(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    tuned: tuple[float, float] | None = None,
+) -> dict[str, np.ndarray]:
+    """The bogie in its curve without self-excitation, linearised with its wheels out of round.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, without ``bogie.absorber`` for the bogie without absorbers
+    contact_geometry : variables of this file
+    tuned : stiffness and damping of the absorber instead of those in the configuration
+
+    Returns
+    -------
+    Variables of ``bogie_linearisation``.
+    """
+    force = cfg["creep_force"] | cfg["forced_excitation"]
+    bogie = dict(cfg["bogie"])
+    if tuned is not None:
+        bogie["absorber"] = bogie["absorber"] | {"c_T": tuned[0], "d_T": tuned[1]}
+    line = bogie_line({**cfg, "bogie": bogie, "creep_force": force}, contact_geometry)
+    run = run_through(line, cfg["numerics"]["curvature_steps"])
+    design = getattr(line.bogie, "absorber", None)
+    if design is not None:
+        run = changed(line, design, run)
+    return {
+        **{
+            name: np.float64(getattr(design, own, np.nan))
+            for name, own in (("m_T", "I_T"), ("c_T", "c_T"), ("d_T", "d_T"))
+        },
+        **variables(
+            rough_bogie(run.curve, run.equilibrium),
+            run.curve.contacts,
+            line.bogie.wheel.radius,
+            line.grid,
+        ),
+        "residual": np.float64(run.equilibrium.residual),
+        "status": np.array(run.equilibrium.status),
     }

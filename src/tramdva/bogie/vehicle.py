@@ -280,6 +280,24 @@ def _absorber_carrier(layout: _Layout, absorber, wheel: int) -> tuple[np.ndarray
     return point, direction @ rows
 
 
+def absorber_carriers(vehicle: Vehicle, absorber) -> tuple[np.ndarray, np.ndarray]:
+    """Where absorbers could be attached to a vehicle without absorbers.
+
+    Returns
+    -------
+    along : (4, n), motion of the axles along the absorbers' directions
+    across : (k, n), motions that a translating absorber follows as a mass; none if it rotates
+    """
+    layout = _Layout(vehicle.axle, 0)
+    along, across = [], []
+    for wheel in range(4):
+        point, direction = _absorber_carrier(layout, absorber, wheel)
+        along.append(direction)
+        if absorber.motion == "translation":
+            across += list(np.linalg.svd(unit_direction(absorber)[None])[2][1:] @ point[:3])
+    return np.array(along), np.array(across).reshape(-1, layout.size)
+
+
 def unit_direction(absorber) -> np.ndarray:
     """Direction (3,) of an absorber's motion."""
     d = np.array([absorber.direction.x, absorber.direction.y, absorber.direction.z])
@@ -300,6 +318,23 @@ def _add_absorber(sums: _Assembly, layout: _Layout, absorber, wheel: int) -> Non
     axle = AXLES[AXLE_OF_WHEEL[wheel]]
     sums.add_strain("absorber", axle, absorber.c_T * np.outer(relative, relative))
     sums.damping += absorber.d_T * np.outer(relative, relative)
+
+
+def with_absorber_values(vehicle: Vehicle, before, c_T: float, d_T: float) -> Vehicle:
+    """Return the vehicle with another stiffness and damping of its absorbers.
+
+    Parameters
+    ----------
+    vehicle : Vehicle built with the absorber `before` (bogie_parameters.BogieAbsorber)
+    c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
+    """
+    parts = {key: part for key, part in vehicle.strain.items() if key[0] == "absorber"}
+    unit = sum(parts.values()) / before.c_T
+    return vehicle._replace(
+        stiffness=vehicle.stiffness + (c_T - before.c_T) * unit,
+        damping=vehicle.damping + (d_T - before.d_T) * unit,
+        strain=vehicle.strain | {key: c_T / before.c_T * part for key, part in parts.items()},
+    )
 
 
 def _frame_motion(layout: _Layout, bogie, absorber) -> tuple[np.ndarray, np.ndarray]:

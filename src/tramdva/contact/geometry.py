@@ -14,8 +14,8 @@ import itertools
 from typing import NamedTuple
 
 import numpy as np
+import scipy  # its parts load when they are used: many short jobs need none
 from numba import njit
-from scipy.ndimage import spline_filter1d
 
 from tramdva.contact import locus
 from tramdva.contact.profiles import MM, Profile, ProfileError
@@ -195,7 +195,7 @@ def _table(zone, rail, wheel_radius, shear, axes, gap_scale):
     if not np.all(np.isfinite(values)):
         raise ProfileError("contact table: the profiles do not meet within the range of shifts")
     for axis in range(3):
-        values = spline_filter1d(values, order=3, axis=axis, mode="mirror")
+        values = scipy.ndimage.spline_filter1d(values, order=3, axis=axis, mode="mirror")
     return ContactTable(
         coefficients=np.ascontiguousarray(np.moveaxis(values, 0, 2)),
         first=np.array([axis[0] for axis in nodes]),

@@ -12,9 +12,8 @@ evaluated by SciPy when the table is built and by cubic Hermite interpolation in
 """
 
 import numpy as np
+import scipy  # its parts load when they are used: many short jobs need none
 from numba import njit
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk
 
 from tramdva.contact.interpolation import hermite, locate, sample_spline
 
@@ -32,7 +31,7 @@ def _integrals(flatness: float) -> tuple[float, float, float]:
     modulus_squared = 1.0 - flatness**2
     if modulus_squared < 1e-12:
         return 1.0, np.pi / 2.0, np.pi / 2.0
-    k, e = ellipk(modulus_squared), ellipe(modulus_squared)
+    k, e = scipy.special.ellipk(modulus_squared), scipy.special.ellipe(modulus_squared)
     return (e / flatness**2 - k) / (k - e), k, e
 
 
@@ -48,7 +47,7 @@ def ellipse_functions(log_curvature_ratio: float) -> np.ndarray:
         flatness = 1.0
     else:
         flatness = np.exp(
-            brentq(
+            scipy.optimize.brentq(
                 lambda u: np.log(_integrals(np.exp(u))[0]) - target,
                 -0.9 * target - 1e-3,
                 -1e-9,

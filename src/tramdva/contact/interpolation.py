@@ -5,8 +5,8 @@ interpolation keeps values and first derivatives continuous across nodes.
 """
 
 import numpy as np
+import scipy  # its parts load when they are used: many short jobs need none
 from numba import njit
-from scipy.interpolate import CubicSpline
 
 
 def sample_spline(
@@ -25,7 +25,7 @@ def sample_spline(
     -------
     (count, 2 m) array: values, then slopes times `step`.
     """
-    spline = CubicSpline(nodes, values, axis=0)
+    spline = scipy.interpolate.CubicSpline(nodes, values, axis=0)
     grid = first + step * np.arange(count)
     return np.ascontiguousarray(np.hstack([spline(grid), step * spline(grid, 1)]))
 

@@ -95,7 +95,7 @@ def contact_workspace(law: ContactLaw) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return np.zeros((geometry.WINDOW, locus.STRIDE)), fastsim.workspace(law.grid), np.zeros(RESULTS)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def tangential_forces(
     law,
     semi_axis_longitudinal,

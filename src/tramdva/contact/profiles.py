@@ -10,7 +10,7 @@ their slopes, so they are single-valued: steeper parts than `STEEPEST` are left 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import scipy  # its parts load when they are used: many short jobs need none
 
 MM = 1e-3
 SPACING = 0.025e-3
@@ -40,11 +40,13 @@ class Profile:
 
     def depth_at(self, position):
         """Depth in m at positions in m (cubic Hermite interpolation)."""
-        return CubicHermiteSpline(self.position, self.depth, self.slope)(position)
+        return scipy.interpolate.CubicHermiteSpline(self.position, self.depth, self.slope)(position)
 
     def slope_at(self, position):
         """Slope d depth / d position at positions in m."""
-        return CubicHermiteSpline(self.position, self.depth, self.slope)(position, 1)
+        return scipy.interpolate.CubicHermiteSpline(self.position, self.depth, self.slope)(
+            position, 1
+        )
 
 
 def resample(name: str, kind: str, position, depth, slope, spacing: float = SPACING) -> Profile:
@@ -54,7 +56,7 @@ def resample(name: str, kind: str, position, depth, slope, spacing: float = SPAC
     beyond = np.flatnonzero(~keep[first:])
     last = first + beyond[0] if beyond.size else keep.size
     part = slice(first, last)
-    spline = CubicHermiteSpline(position[part], depth[part], slope[part])
+    spline = scipy.interpolate.CubicHermiteSpline(position[part], depth[part], slope[part])
     count = int((position[last - 1] - position[first]) / spacing) + 1
     grid = position[first] + spacing * np.arange(count)
     return Profile(name, kind, grid, spline(grid), spline(grid, 1))

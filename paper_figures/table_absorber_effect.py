@@ -1,0 +1,65 @@
+"""Effect of the absorbers on the peaks of the evolution tendency, beside the paper's words."""
+
+import numpy as np
+
+from tramdva import figures, job, results, tables
+
+# What the paper says of the peaks (1), (2), (3): frequency in Hz and factor by the absorbers.
+PAPER = {
+    ("first_bending", "outer"): ("(1) about 20", "slightly below 1"),
+    ("first_bending", "inner"): ("(1) about 20", "slightly below 1"),
+    ("second_bending", "outer"): ("(2) about 55", "about 1/3"),
+    ("second_bending", "inner"): ("(2) about 55", "about 1/2"),
+    ("resilient_wheel", "outer"): ("(3) about 120", "slightly below 1"),
+    ("resilient_wheel", "inner"): ("(3) about 120", "slightly below 1"),
+}
+HEADINGS = [
+    "wheel", "peak", "absorber", "frequency (Hz)", "share of the largest",
+    "factor", "factor at whole orders", "paper: frequency (Hz)", "paper: factor",
+]  # fmt: skip
+
+
+def main(*, table: str, page: str, code: str, evolution_tendency: str) -> None:
+    """Write the table for spreadsheets and as a page."""
+    rows = [HEADINGS, *peaks(results.read(evolution_tendency))]
+    tables.save(table, page, "Effect of the absorbers", rows)
+
+
+def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
+    """Rows by wheel, peak and absorber as texts."""
+    rows = []
+    none = list(tendency["absorber"]).index("none")
+    for w, wheel in enumerate(map(str, tendency["wheel"])):
+        largest = np.nanmax(np.abs(tendency["linearised_evolution_tendency"][none, w]))
+        for p, peak in enumerate(map(str, tendency["peak"])):
+            known = PAPER.get((peak, wheel.partition("_")[2]), ("", ""))
+            for a, absorber in enumerate(map(str, tendency["absorber"])):
+                place = a, w, p
+                rows.append(
+                    [
+                        wheel.replace("_", " "),
+                        peak.replace("_", " "),
+                        figures.design_name(absorber).replace("Table 2", "Table 3"),
+                        number(tendency["peak_frequency"][place], "{:.1f}"),
+                        number(tendency["peak_tendency"][place] / largest, "{:.3f}"),
+                        number(tendency["peak_factor"][place], "{:.2f}"),
+                        number(tendency["peak_order_factor"][place], "{:.2f}"),
+                        *(known if absorber == "paper" else (known[0], "")),
+                    ]
+                )
+    return rows
+
+
+def number(value: float, form: str) -> str:
+    """Write a number, or nothing where there is none."""
+    return form.format(value) if np.isfinite(value) else ""
+
+
+if __name__ == "__main__":
+    with job.logging_to(snakemake.log[0]):
+        main(
+            table=snakemake.output.table,
+            page=snakemake.output.page,
+            code=snakemake.params.code,
+            evolution_tendency=snakemake.input.evolution_tendency,
+        )

@@ -1,0 +1,94 @@
+"""Wheels out of round and their wear: the fastest growing order around the wheel, all orders."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tramdva import figures, job, results
+
+STYLE = Path(__file__).parent / "tramdva.mplstyle"
+MICRO = 1e-6
+SIZE = 0.14  # of the polar axis: half height of the drawn wave
+
+
+def main(
+    *, pdf: str, png: str, code: str, cfg: dict, evolution_tendency: str, wear: list[str]
+) -> None:
+    """Draw the wheels; of the files of wear, those of the fastest growing order are read."""
+    tendency = results.read(evolution_tendency)
+    none = list(tendency["absorber"]).index("none")
+    growing = np.nan_to_num(tendency["evolution_tendency"][none], nan=-np.inf)
+    best = [int(np.argmax(of_wheel)) for of_wheel in growing]
+    count = tendency["order"].size
+    worn = [results.read(wear[none * count + k]) for k in best]
+    with figures.style(STYLE):
+        figures.save(draw(tendency, worn), pdf, png, f"Wear around the wheels: {cfg['label']}")
+
+
+def draw(tendency: dict[str, np.ndarray], worn: list[dict[str, np.ndarray]]) -> Figure:
+    """Draw a row per wheel: polar plot of its fastest growing order, response of all orders."""
+    wheels = tendency["wheel"]
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 70 * len(wheels))
+    grid = figure.add_gridspec(len(wheels), 2, width_ratios=[4, 6])
+    for row, wheel in enumerate(wheels):
+        polar = figure.add_subplot(grid[row, 0], projection="polar")
+        draw_wheel(polar, worn[row], row)
+        spectrum = figure.add_subplot(grid[row, 1])
+        draw_orders(spectrum, tendency, row)
+        spectrum.set_title(f"{str(wheel).replace('_', ' ')} wheel", fontsize="medium")
+        figures.letter(spectrum, "bd"[row] if row < 2 else "")
+    return figure
+
+
+def draw_wheel(axes: Axes, worn: dict[str, np.ndarray], row: int) -> None:
+    """Draw radius deviation and varying part of the wear around the wheel, each to its scale."""
+    angle = np.append(worn["angle"], 2.0 * np.pi)
+    deviation, depth = worn["radius_deviation"][row], worn["wear_depth"][row]
+    varying = depth - depth.mean()
+    for values, words, look in (
+        (deviation, f"radius deviation, {np.abs(deviation).max() / MICRO:.2g} µm", {"color": "C1"}),
+        (
+            varying,
+            f"wear beyond its mean, ±{1e3 * np.abs(varying).max() / MICRO:.2g} nm per revolution",
+            {"color": "C0"},
+        ),
+    ):
+        wave = np.append(values, values[0]) / np.abs(values).max()
+        axes.plot(angle, 1.0 + SIZE * wave, linewidth=0.9, label=words, **look)
+    axes.set(ylim=(0.0, 1.25), yticks=[])
+    axes.set_title(
+        f"order {int(worn['order'])}, {float(worn['frequency']):.1f} Hz", fontsize="medium"
+    )
+    axes.legend(loc="center", fontsize=6.0)
+
+
+def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
+    """Draw the order spectrum: levels now and after some revolutions."""
+    order = tendency["order"]
+    axes.step(order, tendency["level"][row], where="mid", color="black", linewidth=0.9, label="now")
+    for k, name in enumerate(map(str, tendency["absorber"])):
+        words = figures.design_name(name).replace("Table 2", "Table 3")
+        axes.step(
+            order, tendency["level_after"][k, row], where="mid", color=("C1", "0.55", "C2")[k],
+            linewidth=1.1, label=f"later, {words}",
+        )  # fmt: skip
+    axes.set(xlabel="order (waves around the wheel)", ylabel="level (dB re 1 µm)")
+    axes.legend(loc="upper left")
+    speed = float(tendency["frequency_axis"][0] / tendency["order_axis"][0])
+    top = axes.secondary_xaxis("top", functions=(lambda n: n * speed, lambda f: f / speed))
+    top.set_xlabel("frequency (Hz)")
+    axes.tick_params(which="both", top=False)
+
+
+if __name__ == "__main__":
+    with job.logging_to(snakemake.log[0]):
+        main(
+            pdf=snakemake.output.pdf,
+            png=snakemake.output.png,
+            code=snakemake.params.code,
+            cfg=snakemake.params.cfg,
+            evolution_tendency=snakemake.input.evolution_tendency,
+            wear=snakemake.input.wear,
+        )

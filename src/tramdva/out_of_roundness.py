@@ -1,0 +1,155 @@
+"""Out-of-roundness of a wheel: radius deviation over the wheel angle, its orders and levels.
+
+The wheel angle counts material points against the rotation: the point at angle theta touches the
+rail when the wheel has turned by theta. A crest is positive:
+
+    r(theta) = sum over orders n of A_n cos(n theta + phi_n) = Re sum R_n exp(i n theta)
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+REFERENCE = 1e-6  # m, of levels
+LARGEST_FILE = 10_000_000  # bytes
+FEWEST_POINTS = 36
+LARGEST_DEVIATION = 5e-3  # m; beyond, a file is in other units or of no wheel
+LARGEST_GAP = 15.0  # degrees between neighbours
+
+
+class RoundnessError(ValueError):
+    """A file is no measurement of a wheel's out-of-roundness."""
+
+
+class Measurement(NamedTuple):
+    """Measured radius deviation: angle (k,) in rad from 0 to below 2 pi, deviation (k,) in m."""
+
+    angle: np.ndarray
+    deviation: np.ndarray
+
+
+def radius_deviation(orders, amplitudes, angle: np.ndarray) -> np.ndarray:
+    """Radius deviation in m at wheel angles.
+
+    Parameters
+    ----------
+    orders : (k,) waves around the wheel
+    amplitudes : (k,) complex, R_n in m
+    angle : (m,) in rad
+    """
+    waves = np.exp(1j * np.outer(np.asarray(angle, float), np.asarray(orders, float)))
+    return (waves @ np.asarray(amplitudes, complex)).real
+
+
+def order_amplitudes(angle: np.ndarray, values: np.ndarray, orders) -> np.ndarray:
+    """Complex amplitudes of orders in a periodic function of the wheel angle.
+
+    Parameters
+    ----------
+    angle : (k,) in rad, increasing over one turn, not necessarily uniform
+    values : (k,)
+    orders : (n,) integers; order 0 gives the mean
+
+    Returns
+    -------
+    (n,) complex, such that the function is Re sum A_n exp(i n angle).
+
+    Notes
+    -----
+    Between the points the function is taken as linear and integrated exactly with the waves, so
+    that gaps do not count as zero. For k uniform points this is the discrete Fourier transform
+    times sinc(n / k)^2.
+    """
+    angle, values = np.asarray(angle, float), np.asarray(values, float)
+    start = np.append(angle, angle[0] + 2.0 * np.pi)
+    width, left = np.diff(start), values
+    rise = np.append(values[1:], values[0]) - values
+    out = []
+    for order in orders:
+        if order == 0:
+            out.append(np.sum(width * (left + 0.5 * rise)) / (2.0 * np.pi))
+            continue
+        # Integrals over a stretch of exp(-i n w u) and u exp(-i n w u), u = 0 .. 1.
+        x = -1j * order * width
+        whole = np.expm1(x) / x
+        ramp = (np.exp(x) - whole) / x
+        part = width * np.exp(-1j * order * angle) * (left * whole + rise * ramp)
+        out.append(np.sum(part) / np.pi)
+    return np.array(out)
+
+
+def level(amplitude: np.ndarray) -> np.ndarray:
+    """Level in dB re 1 um of the effective value of a wave with an amplitude in m."""
+    with np.errstate(divide="ignore"):
+        return 20.0 * np.log10(np.abs(amplitude) / np.sqrt(2.0) / REFERENCE)
+
+
+def read_measurement(path: str | Path) -> Measurement:
+    """Read a measured out-of-roundness.
+
+    Parameters
+    ----------
+    path : text file of two columns, angle in degrees and deviation in um (crest positive),
+        separated by blanks, commas or semicolons; `#` starts a comment
+
+    Raises
+    ------
+    RoundnessError
+        With file, line and what is wrong.
+    """
+    path = Path(path)
+    rows = [_row(path, number, line) for number, line in enumerate(_lines(path), start=1)]
+    points = np.array([row for row in rows if row is not None])
+    if len(points) < FEWEST_POINTS:
+        raise RoundnessError(f"{path}: {len(points)} points; at least {FEWEST_POINTS} are needed")
+    angle, deviation = points[:, 0], 1e-6 * points[:, 1]
+    if np.any(np.diff(angle) <= 0.0):
+        k = int(np.argmax(np.diff(angle) <= 0.0))
+        raise RoundnessError(f"{path}: angle {angle[k + 1]:g} after {angle[k]:g} must be larger")
+    if angle[0] < 0.0 or angle[-1] > 360.0:
+        raise RoundnessError(
+            f"{path}: angles {angle[0]:g} to {angle[-1]:g}; 0 to 360 degrees are allowed"
+        )
+    if angle[-1] - angle[0] == 360.0:  # the first point is given again at the end
+        angle, deviation = angle[:-1], deviation[:-1]
+    gaps = np.diff(np.append(angle, angle[0] + 360.0))
+    if gaps.max() > LARGEST_GAP:
+        k = int(np.argmax(gaps))
+        raise RoundnessError(
+            f"{path}: no point for {gaps[k]:g} degrees after {angle[k]:g}; at most "
+            f"{LARGEST_GAP:g} degrees are allowed (a whole turn, angle in degrees)"
+        )
+    if np.abs(deviation).max() > LARGEST_DEVIATION:
+        raise RoundnessError(
+            f"{path}: deviation of {1e6 * np.abs(deviation).max():g} um; at most "
+            f"{1e6 * LARGEST_DEVIATION:g} um are allowed (deviation in um, not the radius)"
+        )
+    return Measurement(np.radians(angle), deviation - deviation.mean())
+
+
+def _lines(path: Path) -> list[str]:
+    if not path.is_file():  # a device may have no end
+        raise RoundnessError(f"{path}: there is no such file")
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise RoundnessError(f"{path}: larger than {LARGEST_FILE} bytes")
+        return path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise RoundnessError(f"{path}: cannot be read as text ({error})") from None
+
+
+def _row(path: Path, number: int, line: str) -> tuple[float, float] | None:
+    fields = line.split("#")[0].replace(",", " ").replace(";", " ").split()
+    if not fields:
+        return None
+    try:
+        angle, deviation = map(float, fields)
+    except ValueError:
+        angle = deviation = np.nan
+    if not np.isfinite(angle + deviation):
+        raise RoundnessError(
+            f"{path}, line {number}: {line.strip()[:60]!r} must be two numbers, angle in degrees "
+            "and deviation in um"
+        )
+    return angle, deviation

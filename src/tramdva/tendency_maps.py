@@ -1,0 +1,192 @@
+"""The stage `tendency_maps`: evolution tendency over speed, curve radius and absorber."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tramdva import evolution
+from tramdva.bogie import attached_absorbers
+from tramdva.bogie.curving import Equilibrium, System, equilibrium
+from tramdva.bogie.line import BogieLine, bogie_line, run_through, systems, transferred
+from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
+from tramdva.bogie.running import LOCALS
+from tramdva.bogie.vehicle import WHEELS
+from tramdva.evolution_stages import wear_chart, wear_grid
+
+
+class _State(NamedTuple):
+    """A vehicle in a curve."""
+
+    line: BogieLine
+    system: System
+    equilibrium: Equilibrium
+
+
+def tendency_maps(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    designs: Mapping[str, tuple[float, float, float]],
+) -> dict[str, np.ndarray]:
+    """Evolution tendency of the linearised vehicle over speed, radius and absorber.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, ``wear``, ``out_of_roundness.wheels``, ``study``, ``numerics``
+    contact_geometry : variables of this file
+    designs : inertia, stiffness and damping by absorber; NaN for none
+
+    Returns
+    -------
+    Variables of ``tendency_maps``.
+    """
+    study, numerics = cfg["study"], cfg["numerics"]
+    force = cfg["creep_force"] | cfg["forced_excitation"]
+    line = bogie_line({**cfg, "creep_force": force}, contact_geometry)
+    none = run_through(line, numerics["curvature_steps"])
+    known = _State(line, none.curve, none.equilibrium)
+    frequency = np.linspace(
+        study["frequency"]["min"], study["frequency"]["max"], numerics["frequency_points"]
+    )
+    speed = np.linspace(study["speed"]["min"], study["speed"]["max"], numerics["speeds"])
+    radius = np.geomspace(study["radius"]["min"], study["radius"]["max"], numerics["radii"])
+    inertia, stiffness, damping = np.array([designs[name] for name in study["absorbers"]]).T
+    over_speed = _over(cfg, known, designs, "speed", speed, frequency)
+    over_radius = _over(cfg, known, designs, "radius", radius, frequency)
+    return {
+        "absorber": np.array(study["absorbers"]),
+        "m_T": inertia,
+        "c_T": stiffness,
+        "d_T": damping,
+        "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
+        "frequency": frequency,
+        "speed": speed,
+        "speed_tendency": over_speed["tendency"],
+        "speed_growth_rate": over_speed["growth_rate"],
+        "speed_status": over_speed["status"],
+        "radius": radius,
+        "radius_tendency": over_radius["tendency"],
+        "radius_growth_rate": over_radius["growth_rate"],
+        "radius_status": over_radius["status"],
+        **_over_absorbers(cfg, known, frequency),
+    }
+
+
+def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str, np.ndarray]:
+    """Tendency (absorber, wheel, value, f) over values of a field of the track.
+
+    From the line's own value upwards and downwards, each start from its neighbour.
+    """
+    absorbers, wheels = cfg["study"]["absorbers"], cfg["out_of_roundness"]["wheels"]
+    tendency = np.full((len(absorbers), len(wheels), values.size, frequency.size), np.nan)
+    growth = np.full((len(absorbers), values.size), np.nan)
+    status = np.full((len(absorbers), values.size), "not_converged", dtype="U20")
+    own = int(np.argmin(np.abs(values - getattr(known.line.track, name))))
+    for i, absorber in enumerate(absorbers):
+        design = _design(known.line, designs[absorber])
+        for way in (range(own, values.size), range(own - 1, -1, -1)):
+            state = known
+            for k in way:
+                state = _changed(state, design, {name: float(values[k])})
+                status[i, k] = state.equilibrium.status
+                if state.equilibrium.status != "converged":
+                    break
+                bogie = rough_bogie(state.system, state.equilibrium)
+                growth[i, k] = _growth_rate(bogie, cfg["study"]["design_band"])
+                tendency[i, :, k] = _tendency(cfg, state, bogie, frequency)
+    return {"tendency": tendency, "growth_rate": growth, "status": status}
+
+
+def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
+    """Largest growth rate in 1/s of the oscillations in a band; NaN if there are none."""
+    value = bogie.eigenvalue
+    frequency = value.imag / (2.0 * np.pi)
+    inside = (frequency >= band["min"]) & (frequency <= band["max"])
+    return float(value.real[inside].max()) if inside.any() else np.nan
+
+
+def _design(line: BogieLine, design: Sequence[float]):
+    """Absorber of the bogie with inertia, stiffness and damping; None where they are NaN."""
+    inertia, stiffness, damping = map(float, design)
+    if np.isnan(stiffness):
+        return None
+    own = line.bogie.absorber
+    return own.model_copy(update={"I_T": inertia, "c_T": stiffness, "d_T": damping})
+
+
+def _changed(known: _State, design, track: Mapping[str, float]) -> _State:
+    """Equilibrium on another track, from a known one."""
+    line = known.line._replace(track=known.line.track.model_copy(update=track))
+    (system,) = systems(line, design, (1.0,))
+    start = transferred(known.system, known.equilibrium, system)
+    return _State(line, system, equilibrium(system, start))
+
+
+def _chosen(cfg: Mapping[str, Any]) -> list[int]:
+    return [WHEELS.index(name) for name in cfg["out_of_roundness"]["wheels"]]
+
+
+def _wear(cfg, state: _State, bogie: RoughBogie) -> evolution.WearSensitivity:
+    return evolution.wear_sensitivity(
+        bogie,
+        state.system.contacts.law,
+        wear_grid(cfg),
+        wear_chart(cfg),
+        cfg["out_of_roundness"]["wheels"],
+    )
+
+
+def _tendency(cfg, state: _State, bogie: RoughBogie, frequency: np.ndarray) -> np.ndarray:
+    response = evolution.linear_wear_response(
+        bogie,
+        _wear(cfg, state, bogie),
+        frequency,
+        state.line.track.speed,
+        state.line.bogie.wheel.radius,
+        cfg["out_of_roundness"]["wheels"],
+    )
+    return evolution.evolution_tendency(response[:, _chosen(cfg)].T)
+
+
+def _over_absorbers(cfg, known: _State, frequency: np.ndarray) -> dict[str, np.ndarray]:
+    """Largest tendency with an absorber over that without, over stiffness and damping.
+
+    In the band of design, and of all frequencies.
+    """
+    study, points = cfg["study"], cfg["numerics"]["map_points"]
+    d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
+    c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
+    bogie, wheels = rough_bogie(known.system, known.equilibrium), _chosen(cfg)
+    rows = evolution.wear_rows(
+        bogie,
+        _wear(cfg, known, bogie),
+        frequency,
+        known.line.track.speed,
+        known.line.bogie.wheel.radius,
+        cfg["out_of_roundness"]["wheels"],
+    )
+    output = np.zeros((frequency.size, len(wheels), LOCALS * len(WHEELS)), complex)
+    for place, wheel in enumerate(wheels):
+        output[:, place, LOCALS * wheel : LOCALS * (wheel + 1)] = rows.local[:, wheel]
+    absorber, direct = known.line.bogie.absorber, rows.direct[:, wheels]
+    turn = 2.0 * np.pi * frequency
+    bare = attached_absorbers.receptances(
+        known.system, known.equilibrium, bogie, absorber, turn, rows.source
+    )
+    without = evolution.evolution_tendency(
+        np.einsum("fko,fo->fk", output, bare.local_by_wave) + direct
+    )
+    near = (frequency >= study["design_band"]["min"]) & (frequency <= study["design_band"]["max"])
+    factors = np.empty((2, len(wheels), points, points))
+    for i, d in enumerate(d_T):
+        for j, c in enumerate(c_T):
+            response = attached_absorbers.attach(bare, absorber.I_T, c, d, output) + direct
+            tendency = evolution.evolution_tendency(response)
+            factors[0, :, i, j] = tendency[near].max(axis=0) / without[near].max(axis=0)
+            factors[1, :, i, j] = tendency.max(axis=0) / without.max(axis=0)
+    return {
+        "map_d_T": d_T,
+        "map_c_T": c_T,
+        "map_factor": factors[0],
+        "map_worst_factor": factors[1],
+    }

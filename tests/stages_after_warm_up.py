@@ -1,0 +1,79 @@
+"""Run a stage of every kind after the warm-up and print the kernels that it still compiled.
+
+A process of its own: what earlier tests compiled does not count, whatever the cache holds.
+"""
+
+import importlib
+import json
+import pkgutil
+import sys
+from pathlib import Path
+
+import numpy as np
+from numba.core.dispatcher import Dispatcher
+from wheelset_lines import paper
+
+import tramdva
+from tramdva import config, warm_up
+from tramdva.bogie import line, stages
+from tramdva.self_excitation import solve_hopf_point
+from tramdva.stability import growth_rate
+from tramdva.sustained_vibration import limit_cycle_branch, orbit_extremes
+
+CONFIG = Path(__file__).resolve().parents[1] / "config"
+CHANGES = {
+    "numerics": {
+        "contact_geometry": {"shift_step": 4e-5, "yaw_nodes": 18},
+        "bogie": {"cells_along": 8, "strips": 8},
+        "bogie_modes": {"friction_points": 2, "map_points": 2},
+    }
+}
+
+
+def compiled() -> dict[str, int]:
+    """Number of versions of every kernel of the package that this process uses."""
+    modules = [
+        importlib.import_module(found.name)
+        for found in pkgutil.walk_packages(tramdva.__path__, "tramdva.")
+    ]
+    return {
+        f"{module.__name__}.{name}": len(value.signatures)
+        for module in modules
+        for name, value in vars(module).items()
+        if isinstance(value, Dispatcher) and value.py_func.__module__ == module.__name__
+    }
+
+
+def wheelset() -> None:
+    """Stability, a Hopf point and limit cycles, without and with absorber."""
+    numerics = {"mesh_intervals": 10, "degree": 4, "tolerance": 1e-8, "max_orbits": 3}
+    for mounted, c_A in ((False, 4.7e7), (True, 6.2e7)):
+        values = paper(c_A=c_A, c_T=2e7, d_T=7500.0)
+        growth_rate(values, mounted)
+        start = solve_hopf_point(values, mounted, "c_A")
+        branch = limit_cycle_branch(start, "c_A", (1e7, 4e8), numerics)
+        orbit_extremes(branch.cycles[-1], values, mounted)
+
+
+def bogie() -> None:
+    """Contact geometry, equilibria, modes and the ride into the curve."""
+    configuration = config.load(CONFIG, overrides=CHANGES)
+    tables = line.contact_geometry(config.stage(configuration, "paper", "contact_geometry"))
+    tuning = {name: np.full(1, np.nan) for name in ("m_T", "c_T", "d_T")}
+    tuning |= {"design": np.array(["h_infinity"]), "status": np.array(["no_solution"])}
+    found = stages.curving_equilibrium(
+        config.stage(configuration, "paper", "curving_equilibrium"), tables, tuning
+    )
+    stages.bogie_modes(config.stage(configuration, "paper", "bogie_modes"), tables, found)
+    ride = config.stage(configuration, "paper", "curve_entry")
+    ride["study"] = {**ride["study"], "duration": 0.02, "entry": 0.01}
+    stages.curve_entry(ride, tables, found)
+
+
+if __name__ == "__main__":
+    warm_up.compile_kernels()
+    before = compiled()
+    wheelset()
+    bogie()
+    after = compiled()
+    json.dump({"before": before, "after": after}, sys.stdout)
