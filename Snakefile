@@ -58,6 +58,7 @@ onsuccess:
 
 onerror:
     print("tramdva: not all results are complete; logs/<line>/<stage>.log says why.")
+    print("A job that died of SIGKILL was killed from outside, mostly for want of memory.")
 
 
 STAGES = [
