@@ -57,8 +57,12 @@ onsuccess:
 
 
 onerror:
-    print("tramdva: not all results are complete; logs/<line>/<stage>.log says why.")
-    print("A job that died of SIGKILL was killed from outside, mostly for want of memory.")
+    print(
+        "tramdva: not all results are complete; logs/<line>/<stage>.log says why."
+    )
+    print(
+        "A job that died of SIGKILL was killed from outside, mostly for want of memory."
+    )
 
 
 STAGES = [
