@@ -3,7 +3,7 @@
 from functools import partial
 from pathlib import Path
 
-from tramdva import job
+from tramdva import inventory, job, supervision
 from tramdva.config import load_or_exit, stage
 from tramdva.provenance import code_hash, use_numba_cache
 
@@ -32,6 +32,8 @@ MEASURED = {
 }
 values = partial(stage, configuration)
 use_numba_cache()
+if supervision.enter_folder(as_job=not workflow.is_main_process):
+    inventory.set_aside_unusable(configuration, SCRIPTS)
 
 
 report: "workflow/report/workflow.rst"
@@ -44,6 +46,7 @@ wildcard_constraints:
 
 
 onstart:
+    supervision.begin_run("results", "paper_figures", "logs")
     print(
         f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
     )
@@ -54,7 +57,12 @@ onsuccess:
 
 
 onerror:
-    print("tramdva: not all results are complete; logs/<line>/<stage>.log says why.")
+    print(
+        "tramdva: not all results are complete; logs/<line>/<stage>.log says why."
+    )
+    print(
+        "A job that died of SIGKILL was killed from outside, mostly for want of memory."
+    )
 
 
 STAGES = [

@@ -45,6 +45,7 @@ def main(arguments: list[str]) -> None:
     os.chdir(ROOT)
     if not is_set_up():
         set_up()
+    check_data(config_files(arguments))
     if arguments != ["setup"]:
         become(command(arguments))
 
@@ -59,6 +60,26 @@ def command(arguments: list[str]) -> list[str]:
     if any(cores.fullmatch(argument) for argument in arguments):
         return ["snakemake", *arguments]
     return ["snakemake", "-j2", *arguments]
+
+
+def config_files(arguments: list[str]) -> list[str]:
+    """Return the files that snakemake is to read as configuration."""
+    files: list[str] = []
+    reading = False
+    for argument in arguments:
+        name, is_given, value = argument.partition("=")
+        # Snakemake takes every unique beginning of an option's name, and several files per option.
+        option = name.startswith("--configf") and "--configfiles".startswith(name)
+        reading = option if argument.startswith("-") else reading
+        files += [value] if option and is_given else []
+        files += [argument] if reading and not argument.startswith("-") else []
+    return files
+
+
+def check_data(files: list[str]) -> None:
+    """Refuse configuration that is code: Snakemake would run it before anything is checked."""
+    if files and subprocess.run([BIN / "python", "-m", "tramdva.strict_yaml", *files]).returncode:
+        sys.exit(1)
 
 
 def become(program: list[str]) -> None:

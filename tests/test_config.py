@@ -45,6 +45,25 @@ WRONG_LINES = {
     "decimal comma": ('wheelset: {c_A: "5,2e7"}', f'wheelset.c_A = "5,2e7": {C_A}'),
     "truth": ("wheelset: {c_A: yes}", f"wheelset.c_A = true: {C_A}"),
     "nothing": ("wheelset: {c_A: }", f"wheelset.c_A = null: {C_A}"),
+    "huge, thousands of digits": (
+        f"wheelset: {{c_A: {'1' * 5000}}}",
+        f"wheelset.c_A = inf: {C_A}",
+    ),
+    "expression": ("wheelset: {c_A: 2*3e7}", f'wheelset.c_A = "2*3e7": {C_A}'),
+    "Python": ("wheelset: {c_A: int(6e7)}", f'wheelset.c_A = "int(6e7)": {C_A}'),
+    "template": ("wheelset: {c_A: '?6*10**7'}", f'wheelset.c_A = "?6*10**7": {C_A}'),
+    "hours and minutes": ("wheelset: {c_A: 1:30}", f'wheelset.c_A = "1:30": {C_A}'),
+    "hexadecimal": ("wheelset: {c_A: 0x2faf080}", f'wheelset.c_A = "0x2faf080": {C_A}'),
+    "date": ("wheelset: {c_A: 2024-13-45}", f'wheelset.c_A = "2024-13-45": {C_A}'),
+    "command": ("wheelset: {c_A: $(reboot)}", f'wheelset.c_A = "$(reboot)": {C_A}'),
+    "escape sequence as value": (
+        'wheelset: {c_A: "\\e[2J"}',
+        f'wheelset.c_A = "\\u001b[2J": {C_A}',
+    ),
+    "escape sequence as key": (
+        'wheelset: {"\\x9b2J\\u202E": 1}',
+        "wheelset.\\x9b2J\\u202e: unknown key; known here: m_A, m_R, c_A, d_A, c_R, d_R, L",
+    ),
     "list": ("wheelset: {c_A: [5.2e7]}", f"wheelset.c_A = [52000000.0]: {C_A}"),
     "map": ("wheelset: {c_A: {value: 5}}", f'wheelset.c_A = {{"value": 5}}: {C_A}'),
     "sign of the angle": (
@@ -215,7 +234,18 @@ WRONG_FILES = {
     "alias": ("label: &a x\ncurve: *a\n", "line 2: aliases are not supported"),
     "two documents": ("label: x\n---\nlabel: y\n", "line 2: must hold one document only"),
     "not UTF-8": (b"label: Stra\xdfe\n", "line 1: is not UTF-8 text"),
-    "too large": (b"#" * 1_000_001, "is larger than 1000000 bytes"),
+    "too large": (b"#" * 100_001, "is larger than 100000 bytes"),
+    "deep list": (f"label: {'[' * 3000}{']' * 3000}\n", "line 1: is nested too deeply"),
+    "deep map": ("\n".join(f"{' ' * i}a:" for i in range(300)), "line 31: is nested too deeply"),
+    "merge": ("label: x\ncurve: {<<: {r_C: 30}}\n", "line 2: tags (!...) are not supported"),
+    "billion laughs": (
+        "label: &a [x, x]\ncurve: &b [*a, *a]\ntrack: [*b, *b]\n",
+        "line 2: aliases are not supported",
+    ),
+    "template": (
+        "label: x\n__use_yte__: true\n",
+        "line 2: the key __use_yte__ is not allowed",
+    ),
     "unprintable": ("label: a\x00b\n", "special characters are not allowed"),
 }
 
@@ -228,6 +258,23 @@ WRONG_RUNS = {
     "empty name": ('lines: [""]', f'lines[0] = "": {NAME}'),
     "hidden file": ("lines: [.x]", f'lines[0] = ".x": {NAME}'),
     "long name": (f"lines: [{'a' * 42}]", f'lines[0] = "{"a" * 42}": {NAME}'),
+    "parent": ("lines: [..]", f'lines[0] = "..": {NAME}'),
+    "wildcard": ('lines: ["{line}"]', f'lines[0] = "{{line}}": {NAME}'),
+    "pattern": ('lines: ["paper|x"]', f'lines[0] = "paper|x": {NAME}'),
+    "any name": ('lines: ["*"]', f'lines[0] = "*": {NAME}'),
+    "option": ("lines: [-n]", f'lines[0] = "-n": {NAME}'),
+    "command": ('lines: ["$(touch x)"]', f'lines[0] = "$(touch x)": {NAME}'),
+    "backticks": ('lines: ["`touch x`"]', f'lines[0] = "`touch x`": {NAME}'),
+    "quote": ('lines: ["x\'y"]', f'lines[0] = "x\'y": {NAME}'),
+    "backslash": ("lines: ['x\\y']", f'lines[0] = "x\\\\y": {NAME}'),
+    "control character": ('lines: ["x\\x07"]', f'lines[0] = "x\\u0007": {NAME}'),
+    "nothing": ("lines: [~]", f"lines[0] = null: {NAME}"),
+    "letters like others": ("lines: [рарег]", f'lines[0] = "рарег": {NAME}'),
+    "300 letters": (f"lines: [{'a' * 300}]", f'lines[0] = "{"a" * 56}...: {NAME}'),
+    "device": (
+        "lines: [nul]",
+        'lines[0] = "nul": is the name of a device on Windows: choose another name',
+    ),
     "line break": ('lines: ["paper\\n"]', f'lines[0] = "paper\\n": {NAME}'),
     "number": ("lines: [1]", f"lines[0] = 1: {NAME}"),
     "unknown line": (
@@ -255,6 +302,7 @@ WRONG_RUNS = {
 }
 
 
+@pytest.mark.refuses
 @pytest.mark.parametrize("case", WRONG_LINES)
 def test_wrong_line(config_folder: Path, case: str) -> None:
     text, problem = WRONG_LINES[case]
@@ -263,6 +311,7 @@ def test_wrong_line(config_folder: Path, case: str) -> None:
     assert problems(config_folder, lines=["x"]) == [f"config/lines/x.yaml: {problem}"]
 
 
+@pytest.mark.refuses
 @pytest.mark.parametrize("case", WRONG_FILES)
 def test_wrong_file(config_folder: Path, case: str) -> None:
     text, problem = WRONG_FILES[case]
@@ -271,6 +320,35 @@ def test_wrong_file(config_folder: Path, case: str) -> None:
     assert problems(config_folder, lines=["x"]) == [f"config/lines/x.yaml: {problem}"]
 
 
+LABELS = {
+    "line break": '"a\\nb"',
+    "escape sequence": '"\\e[2J"',
+    "reversed": '"\\u202Ea"',
+    "carriage return": '"a\\rb"',
+}
+
+
+@pytest.mark.refuses
+@pytest.mark.parametrize("case", LABELS)
+def test_label_is_one_printable_line(config_folder: Path, case: str) -> None:
+    write_line(config_folder, f"label: {LABELS[case]}\n")
+
+    (problem,) = problems(config_folder, lines=["x"])
+
+    assert problem.startswith("config/lines/x.yaml: label = ")
+    assert problem.endswith(": must be one line of printable letters")
+    assert problem.isprintable()
+
+
+@pytest.mark.parametrize("written", ["0700", "1_000", "+7e2"])
+def test_numbers_are_decimal(config_folder: Path, written: str) -> None:
+    write_line(config_folder, f"{LABEL}wheelset: {{d_A: {written}}}\n")
+    loaded = config.load(config_folder, overrides={"lines": ["x"]})
+
+    assert loaded.lines["x"].wheelset.d_A == {"1_000": 1000.0}.get(written, 700.0)
+
+
+@pytest.mark.refuses
 @pytest.mark.parametrize("case", WRONG_RUNS)
 def test_wrong_run(config_folder: Path, case: str) -> None:
     text, problem = WRONG_RUNS[case]

@@ -46,11 +46,13 @@ AROUND = {
     "registry": {"result_variables"},
     "strict_yaml": set(),
     "provenance": set(),
-    "job": set(),
+    "supervision": set(),
+    "job": {"supervision"},
     "schema": {"parameters"},
     "slips": {"parameters", "schema"},
     "config": {"bogie_parameters", "parameters", "schema", "slips", "strict_yaml"},
-    "results": {"registry", "result_variables"},
+    "results": {"registry", "result_variables", "supervision"},
+    "inventory": {"config", "provenance", "results", "supervision"},
     "figures": {"results"},
     "tables": {"results"},
 }
@@ -65,6 +67,8 @@ TOUCH_THE_DISK = {
     "results",
     "provenance",
     "job",
+    "supervision",
+    "inventory",
 }
 
 

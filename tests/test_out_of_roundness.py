@@ -80,7 +80,7 @@ def test_wrong_files_are_refused_in_one_line(tmp_path, lines, words):
 
 def test_huge_binary_and_missing_files_are_refused(tmp_path, monkeypatch):
     path = tmp_path / "wheel.txt"
-    with pytest.raises(oor.RoundnessError, match="cannot be read"):
+    with pytest.raises(oor.RoundnessError, match="there is no such file"):
         oor.read_measurement(path)
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(oor.RoundnessError, match="cannot be read"):

@@ -55,6 +55,38 @@ def test_arguments_go_to_the_right_program(
     assert run.command(arguments) == program
 
 
+@pytest.mark.parametrize(
+    ("arguments", "files"),
+    [
+        ([], []),
+        (["-n", "results/x.nc"], []),
+        (["--configfile", "a.yaml"], ["a.yaml"]),
+        (["--configfile", "a.yaml", "b.yaml", "-n", "c"], ["a.yaml", "b.yaml"]),
+        (["--configfiles", "a.yaml", "--configfile=b.yaml"], ["a.yaml", "b.yaml"]),
+        (["--configf", "a.yaml"], ["a.yaml"]),
+        (["--config", "lines=[a.yaml]"], []),
+    ],
+)
+def test_configuration_files_are_found(
+    run: ModuleType, arguments: list[str], files: list[str]
+) -> None:
+    assert run.config_files(arguments) == files
+
+
+def test_configuration_that_is_code_is_refused(
+    run: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd
+) -> None:
+    monkeypatch.setattr(run, "BIN", Path(sys.executable).parent)
+    (tmp_path / "data.yaml").write_text("numerics: {}\n")
+    (tmp_path / "code.yaml").write_text('"__use_yte\\x5f_": true\n?print(6): 7\n')
+
+    run.check_data([str(tmp_path / "data.yaml")])
+    with pytest.raises(SystemExit):
+        run.check_data([str(tmp_path / "code.yaml")])
+
+    assert "code.yaml: line 1: the key __use_yte__ is not allowed" in capfd.readouterr().err
+
+
 def make_python(run: ModuleType) -> None:
     run.BIN.mkdir(parents=True)
     (run.BIN / "python").symlink_to(sys.executable)

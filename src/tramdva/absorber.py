@@ -382,6 +382,7 @@ def frequency_response(
     return {
         "design": np.append("none", absorber_tuning["design"]),
         **parameters,
+        "status": np.append("converged" if stable else "self_excited", absorber_tuning["status"]),
         "frequency": frequency,
         "receptance_amplitude": np.abs(receptance),
         "receptance_phase": np.angle(receptance),

@@ -256,7 +256,7 @@ def load(
     run = None if problems else _validate(Run, layers, problems)
     lines = _load_lines(folder, layers, problems)
     if problems or run is None:
-        raise ConfigurationError("\n".join(dict.fromkeys(problems)))
+        raise ConfigurationError("\n".join(dict.fromkeys(map(slips.harmless, problems))))
     return Configuration(run, lines)
 
 

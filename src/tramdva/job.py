@@ -8,8 +8,11 @@ import os
 import sys
 import traceback
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import IO
+
+from tramdva import supervision
 
 
 @contextmanager
@@ -25,7 +28,7 @@ def logging_to(path: str | Path) -> Iterator[None]:
         The log file.
     """
     terminal = os.dup(2)
-    with Path(path).open("w", buffering=1, encoding="utf-8") as log:
+    with _opened(Path(path)) as log:
         sys.stdout.flush()
         sys.stderr.flush()
         os.dup2(log.fileno(), 1)
@@ -34,16 +37,25 @@ def logging_to(path: str | Path) -> Iterator[None]:
             level=logging.INFO, stream=log, format="%(name)s: %(message)s", force=True
         )
         logging.captureWarnings(True)
+        supervision.end_with_run()
         try:
             yield
         except Exception as error:
-            traceback.print_exc(file=log)
             reason = " ".join(str(error).split()) or "no reason given"
             os.write(terminal, f"{type(error).__name__}: {reason} (see {path})\n".encode())
+            with suppress(OSError):  # the disk may be full
+                traceback.print_exc(file=log)
             raise SystemExit(1) from None
         finally:
             sys.stdout.flush()
             sys.stderr.flush()
+
+
+def _opened(path: Path) -> IO[str]:
+    try:
+        return path.open("w", buffering=1, encoding="utf-8")
+    except OSError as error:
+        raise SystemExit(f"{path}: cannot be written: {error.strerror}") from None
 
 
 def summary(lines: Sequence[str], folder: Path = Path("logs")) -> str:

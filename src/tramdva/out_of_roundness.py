@@ -129,6 +129,8 @@ def read_measurement(path: str | Path) -> Measurement:
 
 
 def _lines(path: Path) -> list[str]:
+    if not path.is_file():  # a device may have no end
+        raise RoundnessError(f"{path}: there is no such file")
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise RoundnessError(f"{path}: larger than {LARGEST_FILE} bytes")
@@ -147,7 +149,7 @@ def _row(path: Path, number: int, line: str) -> tuple[float, float] | None:
         angle = deviation = np.nan
     if not np.isfinite(angle + deviation):
         raise RoundnessError(
-            f"{path}, line {number}: '{line.strip()[:60]}' must be two numbers, angle in degrees "
+            f"{path}, line {number}: {line.strip()[:60]!r} must be two numbers, angle in degrees "
             "and deviation in um"
         )
     return angle, deviation

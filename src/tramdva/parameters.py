@@ -30,11 +30,20 @@ from tramdva.evolution_study import (
     Wear,
     WearNumerics,
 )
-from tramdva.quantities import Interval, Real, Section, Whole, quantity, unique
+from tramdva.quantities import Interval, Real, Section, Whole, printable, quantity, unique
 
 LINE_NAME = r"[a-z0-9][a-z0-9_-]{0,40}"
 VARIANT_NAME = r"[a-z][a-z0-9_]{0,40}"
 GREATEST_LATERAL_ACCELERATION = 4.0  # m/s^2; trams in service stay near 1
+DEVICES = {
+    "con",
+    "prn",
+    "aux",
+    "nul",
+    *(f"{port}{n}" for port in ("com", "lpt") for n in range(10)),
+}
+
+Label = Annotated[str, AfterValidator(printable)]
 
 
 class Curve(Section):
@@ -103,7 +112,7 @@ class AbsorberVariant(Section):
         pattern=f"^{VARIANT_NAME}$",
         description="a name of lower-case letters, digits and _, the first a letter",
     )
-    label: str = Field(
+    label: Label = Field(
         min_length=1, max_length=80, description="a name for the figures, at most 80 letters"
     )
     c_T: Real = quantity("stiffness of the absorber", "N/m", 1e4, 1e9, "figures 2 and 3")
@@ -220,7 +229,7 @@ Variants = Annotated[
 class Line(Section):
     """A tram line: all physical values, in SI units."""
 
-    label: str = Field(
+    label: Label = Field(
         min_length=1, max_length=80, description="a name for the figures, at most 80 letters"
     )
     curve: Curve
@@ -351,12 +360,20 @@ class Numerics(Section):
     tendency_maps: TendencyMapsNumerics
 
 
+def no_device(name: str) -> str:
+    """Refuse names that cannot be a folder on every system, so that results can be handed on."""
+    if name in DEVICES:
+        raise ValueError("is the name of a device on Windows: choose another name")
+    return name
+
+
 LineName = Annotated[
     str,
     Field(
         pattern=f"^{LINE_NAME}$",
         description="a name of lower-case letters, digits, - and _, at most 41 of them",
     ),
+    AfterValidator(no_device),
 ]
 
 

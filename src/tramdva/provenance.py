@@ -13,7 +13,9 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parent
 REGISTRY = "tramdva.registry"  # of its table, only the entry of the stage counts
-WITHOUT_EFFECT = frozenset({"tramdva.job"})  # modules that cannot change a result
+WITHOUT_EFFECT = frozenset(
+    {"tramdva.job", "tramdva.supervision"}
+)  # modules that cannot change a result
 COMPILED = re.compile(rb"^ *@.*jit\b", re.MULTILINE)  # decorators of Numba
 UNUSED_AFTER = 30 * 86400  # seconds after which a folder of compiled code is removed
 

@@ -22,6 +22,13 @@ def unique(values: tuple) -> tuple:
     return values
 
 
+def printable(text: str) -> str:
+    """Refuse line breaks, escape sequences and other letters without a picture."""
+    if not text.isprintable():
+        raise ValueError("must be one line of printable letters")
+    return text
+
+
 Real = Annotated[float, BeforeValidator(refuse_bool)]
 Whole = Annotated[int, BeforeValidator(refuse_bool)]
 

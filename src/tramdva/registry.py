@@ -189,7 +189,9 @@ STAGES: dict[str, Stage] = {
             "peak_frequency": real("design", "Hz", "frequency of the largest receptance"),
             "reduction": real("design", "1", "largest receptance without over with absorber"),
             "growth_rate": real("design", "1/s", "largest growth rate at the operating B"),
-            "critical_c_T": real("design", "N/m", "critical stiffness at this damping"),
+            "critical_c_T": real(
+                "design", "N/m", "critical stiffness at this damping, NaN where there is none"
+            ),
             "stroke_per_force": real("design", "m/N", "largest stroke of the absorber per force"),
             "status": flag("design", STATUS, "status"),
             "reference_peak_receptance": real("", "m/N", "largest receptance without absorber"),
@@ -206,6 +208,7 @@ STAGES: dict[str, Stage] = {
             "m_T": real("design", "kg", "mass of the absorber"),
             "c_T": real("design", "N/m", "stiffness of the absorber"),
             "d_T": real("design", "N s/m", "damping of the absorber"),
+            "status": flag("design", STATUS, "status of the design; without solution all is NaN"),
             "frequency": real("frequency", "Hz", "frequency"),
             "receptance_amplitude": real("design frequency", "m/N", "amplitude of receptance"),
             "receptance_phase": real("design frequency", "rad", "phase of receptance"),
@@ -263,7 +266,9 @@ STAGES: dict[str, Stage] = {
             "mode_name": text("absorber friction_decrease mode", "name by strain energy and axle"),
             "operating_growth_rate": real("absorber", "1/s", "largest growth rate at the line's B"),
             "operating_frequency": real("absorber", "Hz", "its frequency"),
-            "critical_friction_decrease": real("absorber", "s/m", "B where self-excitation begins"),
+            "critical_friction_decrease": real(
+                "absorber", "s/m", "B where self-excitation begins, NaN where it does not"
+            ),
             "map_d_T": real("map_d_T", "N m s/rad", "damping of the absorber"),
             "map_c_T": real("map_c_T", "N m/rad", "stiffness of the absorber"),
             "map_growth_rate": real(

@@ -19,6 +19,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tramdva import supervision
 from tramdva.registry import STAGES
 from tramdva.result_variables import Stage, Variable
 
@@ -87,7 +88,7 @@ def atomically(path: str | Path) -> Iterator[Path]:
         yield part
         with part.open("rb+") as file:
             os.fsync(file.fileno())
-        part.replace(path)
+        supervision.put_in_place(part, path)
     except BaseException:
         part.unlink(missing_ok=True)
         raise
@@ -113,8 +114,13 @@ def read(path: str | Path) -> dict[str, np.ndarray]:
 
 def read_parameters(path: str | Path) -> dict[str, Any]:
     """Return the parameters that made a result file."""
+    return json.loads(read_stamps(path)["parameters"])
+
+
+def read_stamps(path: str | Path) -> dict[str, str]:
+    """Return what a result file says about its making: stage, code_hash, parameters and so on."""
     with _opened(path) as dataset:
-        return json.loads(dataset.parameters)
+        return {name: dataset.getncattr(name) for name in dataset.ncattrs()}
 
 
 def load(path: str | Path) -> xarray.Dataset:

@@ -13,6 +13,7 @@ from tramdva import schema
 from tramdva.parameters import Line, Run
 
 WIDTH = 60  # letters of a value that are shown
+LONGEST = 800  # letters of a line
 
 
 def in_words(slip: Mapping[str, Any], model: type[BaseModel]) -> str:
@@ -44,6 +45,8 @@ def in_words(slip: Mapping[str, Any], model: type[BaseModel]) -> str:
     if kind == "value_error" and (entry is None or entry.kind in ("section", "list")):
         reason = str(slip["ctx"]["error"])
         return f"{path}: {reason}" if path else reason
+    if kind == "value_error" and entry.kind == "text":
+        return f"{path} = {shown(slip['input'])}: {slip['ctx']['error']}"
     if kind == "too_short" and entry is not None and entry.kind == "list":
         return f"{path}: must not be empty ({entry.meaning})"
     if kind == "too_long" and entry is not None and entry.kind == "list":
@@ -71,6 +74,16 @@ def shown(value: Any) -> str:
     else:
         text = json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= WIDTH else f"{text[: WIDTH - 3]}..."
+
+
+def harmless(line: str) -> str:
+    """Write letters that would move the cursor or hide text as their codes; cut long lines."""
+    letters = (
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
+        for letter in line[: LONGEST + 1]
+    )
+    text = "".join(letters)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
 def _allowed(entry: schema.Entry | None) -> str:

@@ -1,30 +1,45 @@
 """Read YAML files that people write: safely, and with every slip named.
 
-Beyond `yaml.safe_load`: keys that are given twice, keys that are no text, aliases and very large
-files are refused, and 1.2e6 is a number.
+Beyond `yaml.safe_load`: keys that are given twice, keys that are no text, aliases, deep nesting
+and very large files are refused. Only decimal notation is a number, so that 1.2e6 is one, and
+neither 1:30 nor 0700 stands for a number that nobody meant; dates are texts.
+
+`python -m tramdva.strict_yaml FILE...` says what is wrong with files.
 """
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-GREATEST_SIZE = 1_000_000  # bytes
+GREATEST_SIZE = 100_000  # bytes
+GREATEST_DEPTH = 30  # of maps and lists within each other
+RESERVED = "__"  # keys that begin so, as __use_yte__, let Snakemake run code from a file
 
 
 class _Loader(yaml.SafeLoader):
+    yaml_implicit_resolvers: dict[str, list] = {}  # noqa: RUF012 -- those below, not PyYAML's
+
     def __init__(self, stream: str) -> None:
         super().__init__(stream)
         self.slips: list[str] = []
+        self.depth = 0
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node:
+        mark = self.peek_event().start_mark
         if self.check_event(yaml.AliasEvent):
-            mark = self.peek_event().start_mark
             raise yaml.composer.ComposerError(None, None, "aliases are not supported", mark)
-        return super().compose_node(parent, index)
+        if self.depth > GREATEST_DEPTH:
+            raise yaml.composer.ComposerError(None, None, "is nested too deeply", mark)
+        self.depth += 1
+        node = super().compose_node(parent, index)
+        self.depth -= 1
+        return node
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
         seen = set()
@@ -35,15 +50,30 @@ class _Loader(yaml.SafeLoader):
                 self.slips.append(f"line {line}: the key {key_node.value!r} must be a text")
             elif key in seen:
                 self.slips.append(f"line {line}: the key {key} is given twice")
+            elif key.startswith(RESERVED):
+                self.slips.append(f"line {line}: the key {key} is not allowed")
             seen.add(str(key))
         return super().construct_mapping(node, deep)
 
 
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)[eE][-+]?[0-9]+$"),
-    list("-+.0123456789"),
+_NOTATIONS = (
+    ("null", r"~|null|Null|NULL|", "~nN"),
+    (
+        "bool",
+        r"yes|Yes|YES|no|No|NO|true|True|TRUE|false|False|FALSE|on|On|ON|off|Off|OFF",
+        "yYnNtTfFoO",
+    ),
+    ("int", r"[-+]?(0|[1-9][0-9]{0,999})", "-+0123456789"),
+    ("float", r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?", "-+.0123456789"),
+    ("float", r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)", "-+."),
+    ("merge", r"<<", "<"),
 )
+for _tag, _pattern, _first in _NOTATIONS:
+    _Loader.add_implicit_resolver(
+        f"tag:yaml.org,2002:{_tag}",
+        re.compile(f"(?:{_pattern})$"),
+        [*_first, *([""] if _tag == "null" else [])],
+    )
 
 
 def read(path: Path) -> tuple[dict[str, Any] | None, list[str]]:
@@ -69,7 +99,7 @@ def read(path: Path) -> tuple[dict[str, Any] | None, list[str]]:
         return None, [f"cannot be read: {(error.strerror or str(error)).lower()}"]
     except yaml.YAMLError as error:
         return None, [_where_and_what(error)]
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         return None, [str(error).splitlines()[0]]
     if content is None:
         return None, ["is empty"]
@@ -105,3 +135,14 @@ def _where_and_what(error: yaml.YAMLError) -> str:
 
 def _kind(content: Any) -> str:
     return "a list" if isinstance(content, list) else "a single value"
+
+
+def main(files: Sequence[str]) -> int:
+    """Print what is wrong with files; return 1 where something is."""
+    slips = [f"{name}: {slip}" for name in files for slip in read(Path(name))[1]]
+    print("\n".join(slips), end="\n" if slips else "", file=sys.stderr)
+    return 1 if slips else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

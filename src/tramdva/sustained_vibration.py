@@ -353,7 +353,8 @@ def _amplitude_rows(
     if onset >= end:
         return []
     numerics = {**cfg["numerics"], "max_orbits": 10_000}
-    branch = limit_cycle_branch(start, "c_T", (0.0, 1.2 * end), numerics)
+    # A branch towards soft absorbers would approach c_T = 0 for ever, far from all values here.
+    branch = limit_cycle_branch(start, "c_T", (0.01 * onset, 1.2 * end), numerics)
     share = np.linspace(0.0, 1.0, cfg["numerics"]["points"] + 1)[1:] ** 3
     values = onset + (end - onset) * share
     return [_onset_row(axle, start), *(_amplitude_row(axle, start, branch, c) for c in values)]

@@ -1,5 +1,7 @@
 """Profiles: closed forms, tangent arcs, and measured files with their errors."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -88,12 +90,22 @@ def test_measured_profile_recovers_a_noisy_s1002(tmp_path, reverse, separator):
 GOOD = (np.arange(-40.0, 40.0, 1.0), 0.001 * np.arange(-40.0, 40.0, 1.0) ** 2)
 
 
+@pytest.mark.refuses
 @pytest.mark.parametrize(
     ("text", "needle"),
     [
         ("1 2 3\n" * 30, "line 1: 3 columns"),
         ("0 1\nx 2\n", "line 2: 'x 2'"),
         ("0 nan\n", "must be finite"),
+        ("0 1e999\n", "must be finite"),
+        ("0 1_000\n", "'0 1_000' is not a pair"),
+        ("0 2*3\n", r"'0 2\*3' is not a pair"),
+        ("0 \x1b[2J\n", r"'0 \\x1b\[2J' is not a pair"),
+        ("0 \x00\n", "is not a pair"),
+        ("0 " + "9" * 5000 + "x\n", "is not a pair"),
+        ("# \x0b \u2028\n0 x\n", "line 2: '0 x'"),
+        ("# " + "x" * 1_000_000, "is larger than 1000000 bytes"),
+        ("\n".join(f"{y} 0" for y in range(20_001)), "20001 points; at most 20000"),
         ("0 0\n1 1\n2 2\n", "3 points; at least 20"),
         ("\n".join(f"{y / 1000:.5f} 0" for y in range(-40, 40)), "must be in mm"),
         ("\n".join(f"{y * 10} 0" for y in range(-40, 40)), "must be in mm"),
@@ -112,11 +124,12 @@ def test_bad_files_give_one_clear_line(tmp_path, text, needle):
 
 
 def test_missing_file_binary_file_and_wrong_kind(tmp_path):
-    with pytest.raises(ProfileError, match="cannot be read"):
-        measured_profile(tmp_path / "none.txt", "wheel")
+    for path in (tmp_path / "none.txt", tmp_path, Path("/dev/zero")):
+        with pytest.raises(ProfileError, match=f"{path}: there is no such file"):
+            measured_profile(path, "wheel")
     binary = tmp_path / "b.txt"
-    binary.write_bytes(bytes(range(128, 256)))
-    with pytest.raises(ProfileError, match="cannot be read"):
+    binary.write_bytes(b"0 0\n" + bytes(range(128, 256)))
+    with pytest.raises(ProfileError, match="line 2: is not UTF-8 text"):
         measured_profile(binary, "wheel")
     with pytest.raises(ProfileError, match="kind 'tyre'"):
         measured_profile(write(tmp_path / "w.txt", *GOOD), "tyre")

@@ -99,8 +99,11 @@ def _designs(line: BogieLine, none: Running, cfg, tuning) -> list[tuple[float, f
     if usable.any():
         k = int(np.argmax(usable))
         start = modal.carried_over(own.I_T, tuning["m_T"][k], tuning["c_T"][k], tuning["d_T"][k])
-    tuned = modal.tuned_absorber(modal.absorber_family(line, none), _limits(cfg), start)
-    return [(np.nan, np.nan), (own.c_T, own.d_T), tuned]
+    # Without an equilibrium there is nothing to tune, and each trial would fail slowly.
+    if none.equilibrium.status == "converged":
+        family = modal.absorber_family(line, none)
+        start = modal.tuned_absorber(family, _limits(cfg), start)
+    return [(np.nan, np.nan), (own.c_T, own.d_T), start]
 
 
 def _limits(cfg: Mapping[str, Any]) -> tuple[float, float]:

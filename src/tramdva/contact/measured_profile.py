@@ -11,6 +11,8 @@ FEWEST_POINTS = 20
 SMALLEST_EXTENT_MM = 20.0
 LARGEST_EXTENT_MM = 250.0
 LARGEST_GAP_MM = 5.0
+GREATEST_SIZE = 1_000_000  # bytes
+MOST_POINTS = 20_000
 
 
 def read_points(path: str | Path) -> np.ndarray:
@@ -27,11 +29,7 @@ def read_points(path: str | Path) -> np.ndarray:
     """
     path = Path(path)
     points, lines = [], []
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ProfileError(f"{path}: cannot be read as text ({error})") from None
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(_text(path).split("\n"), start=1):
         values = _parse(path, number, line)
         if values is not None:
             points.append(values)
@@ -42,6 +40,22 @@ def read_points(path: str | Path) -> np.ndarray:
         array, lines = array[::-1].copy(), lines[::-1]
     _check_order(path, array, lines)
     return array
+
+
+def _text(path):
+    if not path.is_file():
+        raise ProfileError(f"{path}: there is no such file")
+    try:
+        with path.open("rb") as file:
+            raw = file.read(GREATEST_SIZE + 1)
+        if len(raw) > GREATEST_SIZE:
+            raise ProfileError(f"{path}: is larger than {GREATEST_SIZE} bytes")
+        return raw.decode("utf-8-sig")
+    except OSError as error:
+        raise ProfileError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
+    except UnicodeDecodeError as error:
+        line = raw[: error.start].count(b"\n") + 1
+        raise ProfileError(f"{path}, line {line}: is not UTF-8 text") from None
 
 
 def _parse(path, number, line):
@@ -55,17 +69,25 @@ def _parse(path, number, line):
             f"{path}, line {number}: {len(fields)} columns; two are needed, y and z in mm"
         )
     try:
-        values = float(fields[0]), float(fields[1])
+        values = _number(fields[0]), _number(fields[1])
     except ValueError:
         raise ProfileError(
-            f"{path}, line {number}: '{line.strip()}' is not a pair of numbers y z in mm"
+            f"{path}, line {number}: {line.strip()[:60]!r} is not a pair of numbers y z in mm"
         ) from None
     if not np.all(np.isfinite(values)):
-        raise ProfileError(f"{path}, line {number}: '{line.strip()}' must be finite")
+        raise ProfileError(f"{path}, line {number}: {line.strip()[:60]!r} must be finite")
     return values
 
 
+def _number(field):
+    if "_" in field:  # float() reads 1_000 as a number
+        raise ValueError
+    return float(field)
+
+
 def _check_size(path, points):
+    if len(points) > MOST_POINTS:
+        raise ProfileError(f"{path}: {len(points)} points; at most {MOST_POINTS}")
     if len(points) < FEWEST_POINTS:
         raise ProfileError(
             f"{path}: {len(points)} points; at least {FEWEST_POINTS} are needed for a profile"

@@ -1,0 +1,79 @@
+"""Look through `results/` before a run: what this pipeline did not make here is set aside."""
+
+from __future__ import annotations
+
+import json
+from base64 import urlsafe_b64encode
+from collections.abc import Iterator
+from pathlib import Path
+
+from tramdva import supervision
+from tramdva.config import STAGES, Configuration, stage
+from tramdva.provenance import code_hash
+
+SET_ASIDE = ".set-aside"
+
+
+def set_aside_unusable(configuration: Configuration, scripts: Path) -> None:
+    """Rename result files that are truncated, foreign or made from other values.
+
+    Snakemake takes every file under the right name for the result. Files that it recorded and
+    that nobody touched since are left to it; of others, the stamps must be those of this
+    configuration and code.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        The run and its lines.
+    scripts : Path
+        Folder of the scripts of the stages.
+    """
+    for line in configuration.lines:
+        for path in sorted(Path("results", line).rglob("*.nc")):
+            if not _recorded(path) and (fault := _fault(path, configuration, line, scripts)):
+                _set_aside(path, fault)
+
+
+def _set_aside(path: Path, fault: str) -> None:
+    aside = path.with_name(path.name + SET_ASIDE)
+    try:
+        path.replace(aside)
+    except OSError as error:
+        raise SystemExit(f"{fault}; it cannot be set aside: {error.strerror}") from None
+    supervision.say(f"{fault}; it is now {aside.name} and will be made again")
+
+
+def _recorded(path: Path) -> bool:
+    """Tell whether Snakemake made exactly this file, by the date in its record."""
+    record = supervision.FOLDER / "metadata" / urlsafe_b64encode(str(path).encode()).decode()
+    try:
+        return json.loads(record.read_text(encoding="utf-8"))["endtime"] == path.stat().st_mtime
+    except (OSError, ValueError, KeyError):
+        return False
+
+
+def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -> str:
+    """Say in a line what speaks against a file; nothing where it can stay."""
+    from tramdva import results  # half a second that a start without such files does not need
+
+    try:
+        stamps = results.read_stamps(path)
+    except ValueError as error:
+        return str(error)
+    name = stamps["stage"]
+    if name not in path.with_suffix("").parts:
+        return f"{path}: holds the results of {name}"
+    if other := list(_differing(stamps, configuration, line, name, scripts)):
+        return f"{path}: comes from elsewhere, made with other {' and '.join(other)}"
+    return ""
+
+
+def _differing(
+    stamps: dict[str, str], configuration: Configuration, line: str, name: str, scripts: Path
+) -> Iterator[str]:
+    if name in STAGES:  # others use the values of another stage
+        expected = json.dumps(stage(configuration, line, name))
+        if json.loads(stamps["parameters"]) != json.loads(expected):
+            yield "parameters"
+    if stamps["code_hash"] != code_hash(scripts / f"{name}.py"):
+        yield "code"
