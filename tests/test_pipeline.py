@@ -5,6 +5,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tramdva import results
@@ -19,20 +20,62 @@ FIGURES = [
     "fig05_critical_hopf_curve",
     "fig06_cycle_amplitudes",
     "fig07_frequency_response",
+    "fig08_bogie",
+    "fig09_curve_entry",
+    "bogie_mode_shapes",
+    "bogie_stability",
+    "campbell_chart",
+    "fig10_evolution_tendency",
+    "worn_wheels",
+    "order_speed_chart",
+    "tendency_design_chart",
 ]
+# Files of the stages that have one per absorber, or per absorber and order.
+PER_JOB = {
+    "bogie_linearisation": "{absorber}.nc",
+    "bogie_simulation": "{absorber}/order_{order}.nc",
+    "wear": "{absorber}/order_{order}.nc",
+}
 QUICK = ("--configfile", "config/quick.yaml")
+
+
+def files_of(stage: str, root: Path) -> dict[str, str]:
+    """Files of a stage, and the name under which the configuration knows their values."""
+    if stage not in PER_JOB:
+        return {f"{stage}.nc": stage}
+    numerics = load_or_exit(root / "config", [root / "config/quick.yaml"], {}).run.numerics
+    return {
+        f"{stage}/{PER_JOB[stage].format(absorber=absorber, order=order)}": (
+            f"{stage}_{absorber}" if stage == "bogie_linearisation" else stage
+        )
+        for absorber in ("none", "paper")
+        for order in numerics.evolution_tendency.orders.listed()
+    }
 
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_results_are_complete(quick_run: Path, root: Path, stage: str) -> None:
-    path = quick_run / f"results/paper/{stage}.nc"
-    dataset = results.load(path)
-
-    assert set(dataset.variables) == set(STAGES[stage].variables)
-    assert re.fullmatch("[0-9a-f]{20}", dataset.attrs["code_hash"])
     configuration = load_or_exit(root / "config", [root / "config/quick.yaml"], {})
-    used = json.loads(json.dumps(values_of(configuration, "paper", stage)))
-    assert results.read_parameters(path) == used
+    for name, values in files_of(stage, root).items():
+        path = quick_run / "results/paper" / name
+        dataset = results.load(path)
+
+        assert set(dataset.variables) == set(STAGES[stage].variables)
+        assert re.fullmatch("[0-9a-f]{20}", dataset.attrs["code_hash"])
+        used = json.loads(json.dumps(values_of(configuration, "paper", values)))
+        assert results.read_parameters(path) == used
+
+
+def test_all_orders_ran_steadily(quick_run: Path) -> None:
+    found = results.read(quick_run / "results/paper/evolution_tendency.nc")
+
+    assert set(found["status"].ravel()) == {"periodic"}
+    assert (found["harmonic_distortion"] < 0.2).all()
+    linear = found["order_linearised_real"] + 1j * found["order_linearised_imag"]
+    simulated = found["wear_response_amplitude"] * np.exp(1j * found["wear_response_phase"])
+    # The coarse grid of the quick run meets the chart's steps to some per cent only.
+    np.testing.assert_allclose(np.abs(simulated / linear), 1.0, atol=0.1)
+    assert np.abs(np.degrees(np.angle(simulated / linear))).max() < 5.0
 
 
 @pytest.mark.parametrize("figure", FIGURES)
