@@ -43,7 +43,7 @@ def draw(tendency: dict[str, np.ndarray]) -> Figure:
         whole.set_ylabel("evolution tendency\n(1: largest without absorber)")
     for axes in panels[-1]:
         axes.set_xlabel("frequency (Hz)")
-    figures.legend_below(figure, legend(tendency), 3)
+    figures.legend_below(figure, legend(tendency), 2)
     return figure
 
 
@@ -77,7 +77,7 @@ def enlarge(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
 def label_peaks(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     """Write frequency of the peaks without absorber and the factor of the absorbers."""
     none = list(tendency["absorber"]).index("none")
-    scale = np.nanmax(np.abs(tendency["linearised_evolution_tendency"][none, row]))
+    scale = np.nanmax(np.abs(tendency["evolution_tendency"][none, row]))
     for k, _ in enumerate(tendency["peak"]):
         height = tendency["peak_tendency"][none, row, k] / scale
         if not height > 0.03:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import TwoSlopeNorm
+from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
 
 from tramdva import figures, job, results
@@ -12,6 +12,7 @@ from tramdva import figures, job, results
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 KMH = 3.6  # km/h per m/s
 COLOURS = "PuOr_r"  # orange grows, purple diminishes; safe for the colour-blind
+LINEAR = 0.01  # of the largest tendency: linear scale below, logarithmic above
 ORDERS_SHOWN = (10, 15, 20, 25, 30, 40)
 
 
@@ -31,7 +32,7 @@ def draw(maps: dict[str, np.ndarray], cfg: dict) -> Figure:
     others = [k for k in range(len(absorbers)) if k != none] or [none]
     for row, wheel in enumerate(wheels):
         scale = 1e3 * np.nanmax(np.abs(maps["speed_tendency"][none, row]))
-        norm = TwoSlopeNorm(0.0, -0.6 * scale, 0.6 * scale)
+        norm = SymLogNorm(LINEAR * scale, vmin=-scale, vmax=scale)
         for axes, k in zip(panels[row], (none, others[0]), strict=False):
             image = draw_map(axes, maps, "speed", k, row, norm)
             draw_orders(axes, maps, 2.0 * np.pi * cfg["bogie"]["wheel"]["radius"])
@@ -40,8 +41,14 @@ def draw(maps: dict[str, np.ndarray], cfg: dict) -> Figure:
         draw_map(panels[row, 2], maps, "radius", none, row, norm)
         panels[row, 2].set_title("no absorber, over the radius", fontsize="medium")
         panels[row, 0].set_ylabel(f"{str(wheel).replace('_', ' ')}\nfrequency (Hz)")
+        powers = [p for p in (0.1, 1.0, 10.0, 100.0, 1e3) if 3 * LINEAR * scale < p <= scale]
         figure.colorbar(
-            image, ax=list(panels[row]), extend="both", label="growth per 1000 revolutions"
+            image,
+            ax=list(panels[row]),
+            extend="both",
+            ticks=[*(-p for p in powers[::-1]), 0.0, *powers],
+            format="{x:g}",
+            label="growth per 1000 revolutions",
         )
     for axes, name in zip(panels[-1], ("speed (km/h)", "speed (km/h)", "radius (m)"), strict=True):
         axes.set_xlabel(name)

@@ -30,7 +30,7 @@ def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
     rows = []
     none = list(tendency["absorber"]).index("none")
     for w, wheel in enumerate(map(str, tendency["wheel"])):
-        largest = np.nanmax(np.abs(tendency["linearised_evolution_tendency"][none, w]))
+        largest = np.nanmax(np.abs(tendency["evolution_tendency"][none, w]))
         for p, peak in enumerate(map(str, tendency["peak"])):
             known = PAPER.get((peak, wheel.partition("_")[2]), ("", ""))
             for a, absorber in enumerate(map(str, tendency["absorber"])):

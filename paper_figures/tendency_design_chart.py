@@ -21,27 +21,26 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, tendency_maps: str) -> Non
 
 
 def draw(maps: dict[str, np.ndarray], band: dict[str, float]) -> Figure:
-    """Draw a column per wheel: the peak in the band of design, and the largest of all."""
-    wheels = maps["wheel"]
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 124)
-    panels = figure.subplots(2, len(wheels), squeeze=False, sharex=True, sharey=True)
-    for column, wheel in enumerate(wheels):
-        title = str(wheel).replace("_", " ")
-        for row, (name, words) in enumerate(
-            (
-                ("map_factor", f"peak in {band['min']:.0f} to {band['max']:.0f} Hz"),
-                ("map_worst_factor", "largest of all peaks"),
-            )
-        ):
-            axes = panels[row, column]
-            image = draw_map(axes, maps, maps[name][column])
-            axes.set_title(f"{title}: {words}", fontsize="medium")
-            figures.letter(axes, "abcdefgh"[row * len(wheels) + column])
-    for axes in panels[-1]:
+    """Draw a panel per wheel, and one of the wheel with the larger factor."""
+    charts = [
+        *zip(
+            (str(wheel).replace("_", " ") for wheel in maps["wheel"]),
+            maps["map_factor"],
+            strict=True,
+        )
+    ]
+    if len(charts) > 1:
+        charts.append(("worse of the wheels", maps["map_worst_factor"]))
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
+    panels = figure.subplots(1, len(charts), squeeze=False, sharey=True)[0]
+    for axes, name, (words, factor) in zip(panels, "abcde", charts, strict=False):
+        image = draw_map(axes, maps, factor)
+        figures.letter(axes, name)
+        axes.set_title(words, fontsize="medium")
         axes.set_xlabel("stiffness (10⁵ N m/rad)")
-    for axes in panels[:, 0]:
-        axes.set_ylabel("damping (N m s/rad)")
-    figure.colorbar(image, ax=list(panels.flat), label="growth with over growth without absorbers")
+    panels[0].set_ylabel("damping (N m s/rad)")
+    label = f"peak in {band['min']:.0f} to {band['max']:.0f} Hz:\nwith over without absorbers"
+    figure.colorbar(image, ax=list(panels), label=label)
     return figure
 
 
@@ -64,7 +63,7 @@ def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray):
     axes.annotate(
         f"best: {factor[low]:.2f}",
         (stiffness[low[1]], maps["map_d_T"][low[0]]),
-        (5, -8),
+        (5, 2),
         textcoords="offset points",
         color="white",
     )

@@ -1,4 +1,4 @@
-"""Wheels out of round and their wear: the fastest growing order around the wheel, all orders."""
+"""Wheels out of round and their wear: the fastest growing order of a band, and all orders."""
 
 from pathlib import Path
 
@@ -16,10 +16,12 @@ SIZE = 0.14  # of the polar axis: half height of the drawn wave
 def main(
     *, pdf: str, png: str, code: str, cfg: dict, evolution_tendency: str, wear: list[str]
 ) -> None:
-    """Draw the wheels; of the files of wear, those of the fastest growing order are read."""
-    tendency = results.read(evolution_tendency)
+    """Draw the wheels; of the files of wear, those of the order that is shown are read."""
+    tendency, band = results.read(evolution_tendency), cfg["study"]["design_band"]
     none = list(tendency["absorber"]).index("none")
+    inside = (tendency["frequency"] >= band["min"]) & (tendency["frequency"] <= band["max"])
     growing = np.nan_to_num(tendency["evolution_tendency"][none], nan=-np.inf)
+    growing = np.where(inside, growing, -np.inf) if inside.any() else growing
     best = [int(np.argmax(of_wheel)) for of_wheel in growing]
     count = tendency["order"].size
     worn = [results.read(wear[none * count + k]) for k in best]
@@ -30,15 +32,14 @@ def main(
 def draw(tendency: dict[str, np.ndarray], worn: list[dict[str, np.ndarray]]) -> Figure:
     """Draw a row per wheel: polar plot of its fastest growing order, response of all orders."""
     wheels = tendency["wheel"]
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 70 * len(wheels))
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 72 * len(wheels))
     grid = figure.add_gridspec(len(wheels), 2, width_ratios=[4, 6])
     for row, wheel in enumerate(wheels):
         polar = figure.add_subplot(grid[row, 0], projection="polar")
         draw_wheel(polar, worn[row], row)
         spectrum = figure.add_subplot(grid[row, 1])
         draw_orders(spectrum, tendency, row)
-        spectrum.set_title(f"{str(wheel).replace('_', ' ')} wheel", fontsize="medium")
-        figures.letter(spectrum, "bd"[row] if row < 2 else "")
+        polar.set_title(f"{str(wheel).replace('_', ' ')} wheel, {polar.get_title()}")
     return figure
 
 
@@ -58,10 +59,9 @@ def draw_wheel(axes: Axes, worn: dict[str, np.ndarray], row: int) -> None:
         wave = np.append(values, values[0]) / np.abs(values).max()
         axes.plot(angle, 1.0 + SIZE * wave, linewidth=0.9, label=words, **look)
     axes.set(ylim=(0.0, 1.25), yticks=[])
-    axes.set_title(
-        f"order {int(worn['order'])}, {float(worn['frequency']):.1f} Hz", fontsize="medium"
-    )
-    axes.legend(loc="center", fontsize=6.0)
+    axes.set_title(f"order {int(worn['order'])}, {float(worn['frequency']):.1f} Hz")
+    axes.set_xticklabels([])
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.02), frameon=False)
 
 
 def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
@@ -75,7 +75,9 @@ def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
             linewidth=1.1, label=f"later, {words}",
         )  # fmt: skip
     axes.set(xlabel="order (waves around the wheel)", ylabel="level (dB re 1 µm)")
-    axes.legend(loc="upper left")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
+    axes.legend(loc="upper left", ncols=2)
     speed = float(tendency["frequency_axis"][0] / tendency["order_axis"][0])
     top = axes.secondary_xaxis("top", functions=(lambda n: n * speed, lambda f: f / speed))
     top.set_xlabel("frequency (Hz)")

@@ -43,17 +43,36 @@ UPSTREAM = {
     "bogie_stability": ["bogie_modes"],
     "campbell_chart": ["bogie_modes"],
     "table2_absorber_designs": ["absorber_tuning"],
+    "bogie_linearisation": ["contact_geometry", "curving_equilibrium"],  # the latter if tuned
+    "bogie_simulation": ["contact_geometry", "bogie_linearisation"],
+    "wear": ["bogie_simulation"],
+    "evolution_tendency": ["bogie_linearisation", "wear"],
+    "tendency_maps": ["contact_geometry", "bogie_linearisation"],
+    "fig10_evolution_tendency": ["evolution_tendency"],
+    "worn_wheels": ["evolution_tendency", "wear"],
+    "order_speed_chart": ["tendency_maps"],
+    "tendency_design_chart": ["tendency_maps"],
+    "table_absorber_effect": ["evolution_tendency"],
 }
+# Inputs that the paper's line has none of.
+IDLE = {("bogie_linearisation", "curving_equilibrium")}
 FIGURES = [
     *(rule for rule in UPSTREAM if rule.startswith("fig")),
     "fig08_bogie",
     "bogie_mode_shapes",
     "bogie_stability",
     "campbell_chart",
+    "worn_wheels",
+    "order_speed_chart",
+    "tendency_design_chart",
 ]
 RULES = {"stability_map", "hopf_curves", "contact_geometry", "fig08_bogie", *UPSTREAM}
+PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
+ABSORBERS, ORDERS = ("none", "paper"), (26, 27)
 BOGIE = ["curving_equilibrium", "bogie_modes", "curve_entry"]
-BASIC = [stage for stage in STAGES if stage not in {"contact_geometry", *BOGIE}]
+ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps"]
+WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency"]
+BASIC = [stage for stage in STAGES if stage not in {"contact_geometry", *BOGIE, *WHEELS}]
 WITH_VARIANTS = ["stability_map", "hopf_points", "limit_cycles"]
 WITH_CRITICAL_CURVE = ["hopf_curves", "critical_hopf_curve", "cycle_amplitudes", "absorber_tuning"]
 
@@ -62,29 +81,42 @@ USERS = {
     "label": FIGURES,
     "curve": BASIC,
     "creep_force": BASIC,
-    **{f"creep_force.{name}": [*BASIC, *BOGIE] for name in ("mu_0", "A")},
+    **{f"creep_force.{name}": [*BASIC, *BOGIE, *ROUGH_BOGIE] for name in ("mu_0", "A")},
     "creep_force.B": [*BASIC, *BOGIE, "bogie_stability"],
     "wheelset": BASIC,
-    "track": BOGIE,
-    "track.speed": [*BOGIE, "campbell_chart"],
-    "bogie": [*BOGIE, "fig08_bogie"],
+    "track": [*BOGIE, *ROUGH_BOGIE],
+    "track.speed": [*BOGIE, *ROUGH_BOGIE, "campbell_chart"],
+    "bogie": [*BOGIE, *ROUGH_BOGIE, "fig08_bogie"],
     "bogie.wheel.radius": [
         "contact_geometry",
         *BOGIE,
+        *ROUGH_BOGIE,
         "fig08_bogie",
         "bogie_mode_shapes",
         "campbell_chart",
+        "order_speed_chart",
     ],
-    "contact_geometry": ["contact_geometry", *BOGIE],
+    "contact_geometry": ["contact_geometry", *BOGIE, *ROUGH_BOGIE],
+    "out_of_roundness": ["bogie_simulation"],
+    "out_of_roundness.wheels": ["bogie_simulation", "evolution_tendency", "tendency_maps"],
+    "wear": ["wear", "evolution_tendency", "tendency_maps"],
+    "study.evolution_tendency": ["evolution_tendency", "tendency_maps"],
+    "study.tendency_maps": ["tendency_maps"],
+    "study.tendency_maps.design_band": [
+        "tendency_maps",
+        "tendency_design_chart",
+        "worn_wheels",
+    ],
     "study.bogie_modes": ["bogie_modes"],
     "study.bogie_modes.frequency": ["curving_equilibrium", "bogie_modes"],
     "study.curve_entry": ["curve_entry"],
     "study.curve_entry.entry": ["curve_entry", "fig09_curve_entry"],
-    "numerics.bogie": BOGIE,
+    "numerics.bogie": [*BOGIE, *ROUGH_BOGIE],
+    "numerics.wear": ["wear", "evolution_tendency", "tendency_maps"],
     "wheelset.c_A": ["stability_map", "cycle_amplitudes", "absorber_tuning", "frequency_response"],
     "absorber": ["absorber_tuning", "fig02_stability_map", "fig05_critical_hopf_curve"],
     "absorber.m_T": WITH_VARIANTS + WITH_CRITICAL_CURVE,
-    "forced_excitation": ["absorber_tuning", "frequency_response"],
+    "forced_excitation": ["absorber_tuning", "frequency_response", *ROUGH_BOGIE],
     "absorber_variants": WITH_VARIANTS,
     "absorber_variants.name": [
         *WITH_VARIANTS,
@@ -98,7 +130,9 @@ USERS = {
     "study.critical_hopf_curve": ["critical_hopf_curve"],
     "study.cycle_amplitudes": ["cycle_amplitudes"],
     "study.frequency_response": ["absorber_tuning", "frequency_response"],
-} | {f"numerics.{stage}": [stage] for stage in STAGES if stage != "curving_equilibrium"}
+} | {
+    f"numerics.{stage}": [stage] for stage in STAGES if stage not in ("curving_equilibrium", "wear")
+}
 
 
 def concerned(key: str) -> set[str]:
@@ -119,11 +153,11 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
         for key, new in changed(tree[0]):
             yield key, [tree[0] | new, *tree[1:]]
     elif isinstance(tree, list) and isinstance(tree[0], str):
-        yield "", tree[1:]
+        yield "", tree[:-1]
     elif isinstance(tree, list):
         yield "", [tree[0] * 1.01, *tree[1:]]
     elif isinstance(tree, str):
-        yield "", {"rotation": "translation"}.get(tree, f"{tree}x")
+        yield "", {"rotation": "translation", "chart": "smoothed"}.get(tree, f"{tree}x")
     elif isinstance(tree, int):
         yield "", tree + 1
     else:
@@ -131,6 +165,11 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
 
 
 def files_of(rule: str, line: str) -> list[str]:
+    if rule == "bogie_linearisation":
+        return [f"results/{line}/{rule}/{absorber}.nc" for absorber in ABSORBERS]
+    if rule in PER_JOB:
+        jobs = [(absorber, order) for absorber in ABSORBERS for order in ORDERS]
+        return [f"results/{line}/{rule}/{absorber}/order_{order}.nc" for absorber, order in jobs]
     if rule in STAGES:
         return [f"results/{line}/{rule}.nc"]
     kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
@@ -150,7 +189,7 @@ def planned(summary: str) -> dict[str, set[str]]:
     plan: dict[str, set[str]] = {}
     for row in summary.splitlines()[1:]:
         name, _, rule, *_, action = row.split("\t")
-        rules = plan.setdefault(Path(name).parent.name, set())
+        rules = plan.setdefault(Path(name).parts[1], set())
         if action == "update pending":
             rules.add(rule)
     return plan
@@ -166,6 +205,14 @@ def summary(snakemake, folder: Path, *arguments: str, **where) -> dict[str, set[
 def completed_once(frozen_code: Path, snakemake, tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("completed")
     shutil.copytree(frozen_code / "config", folder / "config")
+    path = folder / "config/config.yaml"
+    few, count = re.subn(
+        r"orders: .*",
+        f"orders: {{first: {ORDERS[0]}, last: {ORDERS[-1]}, step: 1}}",
+        path.read_text(encoding="utf-8"),
+    )
+    assert count == 1
+    path.write_text(few, encoding="utf-8")
     make_files(folder, "paper")
     (folder / supervision.FOLDER).mkdir()
     with (folder / supervision.ALIVE).open("w") as alive:
@@ -188,9 +235,9 @@ def clone_line(folder: Path, line: str) -> None:
             (folder / new).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(folder / old, folder / new)
             record = (folder / ".snakemake/metadata" / encoded(old)).read_text()
-            (folder / ".snakemake/metadata" / encoded(new)).write_text(
-                record.replace("/paper/", f"/{line}/")
-            )
+            for root in ("results", "paper_figures", "logs"):
+                record = record.replace(f"{root}/paper/", f"{root}/{line}/")
+            (folder / ".snakemake/metadata" / encoded(new)).write_text(record)
 
 
 def encoded(name: str) -> str:
@@ -216,6 +263,7 @@ def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) ->
         write_line(completed, line, content)
     clone_line(completed, "same")
     write_line(completed, "same", {})
+    (completed / "x").touch()  # the measured file that a line is given
 
     plan = summary(snakemake, completed, "--config", f"lines=[same,{','.join(keys)}]")
 
@@ -235,7 +283,9 @@ def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
     for key, content in changes:
         other = config.load(completed / "config", overrides=content)
         differing = {r for r in before if config.stage(other, "paper", r) != before[r]}
-        assert differing == set(USERS[key.rpartition(".")[0]]), key
+        differing = {re.sub("_(none|paper|tuned)$", "", name) for name in differing}
+        prefixes = [prefix for prefix in USERS if key.startswith(f"{prefix}.")]
+        assert differing == set(USERS[max(prefixes, key=len)]), key
 
 
 @pytest.mark.parametrize("stage", Numerics.model_fields)
@@ -293,9 +343,68 @@ def script_of(code: Path, rule: str) -> Path:
 
 
 def with_downstream(rules: set[str]) -> set[str]:
-    while more := {r for r, up in UPSTREAM.items() if rules & set(up)} - rules:
+    def reached(rule: str, upstream: list[str]) -> bool:
+        return any(other in rules and (rule, other) not in IDLE for other in upstream)
+
+    while more := {rule for rule, up in UPSTREAM.items() if reached(rule, up)} - rules:
         rules = rules | more
     return rules
+
+
+def pending(snakemake, folder: Path, *arguments: str) -> set[str]:
+    """Files that are to be made."""
+    ended = snakemake(folder, "--summary", *arguments)
+    assert ended.returncode == 0, ended.stderr
+    rows = [row.split("\t") for row in ended.stdout.splitlines()[1:]]
+    return {row[0] for row in rows if row[-1] == "update pending"}
+
+
+def test_absorber_of_the_bogie_reruns_its_own_variant(completed: Path, snakemake) -> None:
+    clone_line(completed, "x")
+    write_line(completed, "x", {"bogie": {"absorber": {"d_T": 400}}})
+
+    files = pending(snakemake, completed, "--config", "lines=[x]")
+
+    assert {name for name in files if "/paper" in name} == {
+        "results/x/bogie_linearisation/paper.nc",
+        *(f"results/x/{rule}/paper/order_{n}.nc" for rule in PER_JOB[1:] for n in ORDERS),
+    }
+    assert not {name for name in files if "/none" in name}
+    assert "results/x/evolution_tendency.nc" in files
+
+
+def test_wear_hardness_reruns_no_simulation(completed: Path, snakemake) -> None:
+    clone_line(completed, "x")
+    write_line(completed, "x", {"wear": {"hardness": 2.9e9}})
+
+    plan = summary(snakemake, completed, "--config", "lines=[x]")
+
+    assert plan["x"] == with_downstream({"wear", "tendency_maps"})
+    assert not plan["x"] & {"bogie_simulation", "bogie_linearisation", "curving_equilibrium"}
+
+
+def test_one_more_order_runs_its_own_jobs(completed: Path, snakemake) -> None:
+    more = completed / "more.yaml"
+    more.write_text("numerics: {evolution_tendency: {orders: {last: 28}}}")
+
+    files = pending(snakemake, completed, "--configfile", str(more))
+
+    simulated = {name for name in files if "order_" in name}
+    assert simulated == {
+        f"results/paper/{rule}/{absorber}/order_28.nc"
+        for rule in PER_JOB[1:]
+        for absorber in ABSORBERS
+    }
+
+
+def test_tuned_absorber_waits_for_its_tuning(completed: Path, snakemake) -> None:
+    write_line(completed, "x", {"study": {"evolution_tendency": {"absorbers": ["none", "tuned"]}}})
+    ended = snakemake(
+        completed, "-n", "--config", "lines=[x]", "--cores", "1", "--reason", "--quiet", "rules",
+        "results/x/bogie_linearisation/tuned.nc",
+    )  # fmt: skip
+    assert ended.returncode == 0, ended.stderr
+    assert "curving_equilibrium" in ended.stdout
 
 
 @pytest.mark.parametrize(
@@ -383,7 +492,7 @@ def test_wrong_configuration_shows_the_problems_alone(
     ]
 
 
-def test_catalog_finds_the_same_jobs(tmp_path: Path, snakemake) -> None:
+def test_catalog_finds_the_same_jobs(root: Path, tmp_path: Path, snakemake) -> None:
     tables = []
     for snakefile in ("Snakefile", "workflow/Snakefile"):
         ended = snakemake(tmp_path, "-n", "--cores", "1", snakefile=snakefile)
@@ -391,7 +500,10 @@ def test_catalog_finds_the_same_jobs(tmp_path: Path, snakemake) -> None:
         jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
         tables.append({rule: number for rule, number in jobs.items() if rule in RULES})
 
-    assert tables[0] == tables[1] == dict.fromkeys(RULES, "1")
+    orders = config.load(root / "config").run.numerics.evolution_tendency.orders.listed()
+    many = {"bogie_linearisation": 2, "bogie_simulation": 2 * len(orders), "wear": 2 * len(orders)}
+    expected = {rule: str(many.get(rule, 1)) for rule in RULES}
+    assert tables[0] == tables[1] == expected
 
 
 def test_own_configuration_of_the_working_directory_counts(
@@ -477,11 +589,16 @@ def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
     text = (root / "Snakefile").read_text()
     for rule, body in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
         if rule != "all":
-            declared = re.findall(r"^        (\w+)=rules\.(\w+)\.", body, re.MULTILINE)
-            assert [name for name, _ in declared] == [of for _, of in declared], rule
+            inputs = re.search(r"    input:\n((?:        .*\n)*)", body)
+            block = inputs[1] if inputs else ""
+            declared = re.findall(r"^        (\w+)=", block, re.MULTILINE)
+            for name, of in re.findall(r"^        (\w+)=rules\.(\w+)\.", block, re.MULTILINE):
+                assert name == of, rule
             script = script_of(root, rule).read_text(encoding="utf-8")
-            used = set(re.findall(r"snakemake\.input\.(\w+)", script))
-            assert used == set(UPSTREAM.get(rule, [])) == {name for name, _ in declared}, rule
+            used = set(re.findall(r"snakemake\.input(?:\.|\.get\(\")(\w+)", script)) - {"get"}
+            files = set(declared) - {"measured"}
+            assert used - {"measured"} == set(UPSTREAM.get(rule, [])) == files, rule
+            assert ("measured" in used) == ("measured" in declared), rule
 
 
 def test_parameters_of_jobs_are_plain_json(root: Path) -> None:

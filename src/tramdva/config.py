@@ -154,7 +154,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_stability": (*_FIGURE, "creep_force.B"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
     "fig10_evolution_tendency": _FIGURE,
-    "worn_wheels": _FIGURE,
+    "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
     "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
     "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
 }
@@ -314,7 +314,14 @@ def _load_lines(folder: Path, run_layers: Sequence[_Layer], problems: list[str])
                 meaning = schema.entries(Line)["label"].meaning
                 problems.append(f"{own[0].name}: label: missing: must be {meaning}")
             lines[name] = _validate(Line, [*base, *own], problems) if base and own else None
-    return {name: line for name, line in lines.items() if line is not None}
+    lines = {name: line for name, line in lines.items() if line is not None}
+    problems += [
+        f"lines/{name}.yaml: out_of_roundness.measured = {line.out_of_roundness.measured}: "
+        "there is no such file"
+        for name, line in lines.items()
+        if line.out_of_roundness.measured and not Path(line.out_of_roundness.measured).is_file()
+    ]
+    return lines
 
 
 def _no_such_line(name: str, there: Sequence[str]) -> str:

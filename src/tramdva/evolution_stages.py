@@ -13,6 +13,8 @@ from tramdva.out_of_roundness import level, radius_deviation
 from tramdva.wear import WearChart
 from tramdva.wear_history import AREAS, ContactHistory, depth_around, passages, wear_orders
 
+NEAR = 0.1  # of the frequency of a peak
+
 
 def wear_chart(cfg: Mapping[str, Any]) -> WearChart:
     """Wear chart of the section ``wear``."""
@@ -133,7 +135,8 @@ def evolution_tendency(
     linear = np.array([_linear_response(cfg, stored[name], axis) for name in absorbers])
     at_orders = np.array([_linear_response(cfg, stored[name], frequency) for name in absorbers])
     simulated = _simulated(absorbers, worn)
-    none = absorbers.index("none")
+    # One scale for all curves of a wheel: that of the simulated orders, as in the paper.
+    scale = simulated["evolution_tendency"][absorbers.index("none")]
     return {
         **_absorbers(linearisations, absorbers),
         "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
@@ -141,7 +144,7 @@ def evolution_tendency(
         "frequency": frequency,
         **simulated,
         "evolution_tendency_normalised": evolution.normalised(
-            simulated["evolution_tendency"], simulated["evolution_tendency"][none]
+            simulated["evolution_tendency"], scale
         ),
         **_levels(absorbers, worn, simulated["evolution_tendency"], study["revolutions"]),
         "frequency_axis": axis,
@@ -149,9 +152,7 @@ def evolution_tendency(
         "linearised_wear_response_real": linear.real,
         "linearised_wear_response_imag": linear.imag,
         "linearised_evolution_tendency": evolution.evolution_tendency(linear),
-        "linearised_normalised": evolution.normalised(
-            evolution.evolution_tendency(linear), evolution.evolution_tendency(linear[none])
-        ),
+        "linearised_normalised": evolution.normalised(evolution.evolution_tendency(linear), scale),
         "order_linearised_real": at_orders.real,
         "order_linearised_imag": at_orders.imag,
         "linearised_mean_wear_depth": np.array(
@@ -229,26 +230,31 @@ def _levels(absorbers, worn, tendency: np.ndarray, revolutions: float) -> dict[s
 
 
 def _peaks(cfg, absorbers, axis, linear, frequency, simulated) -> dict[str, np.ndarray]:
-    """Positive peaks in the bands of the study, on the axis and at whole orders."""
+    """Positive peaks without absorbers in the bands of the study, and what is left of them.
+
+    With absorbers a peak may have no top any more: its tendency is the largest within `NEAR` of the
+    frequency of the peak without, on the axis and at whole orders.
+    """
     bands, tendency = cfg["study"]["peaks"], evolution.evolution_tendency(linear)
-    shape = (*tendency.shape[:2], len(bands))
-    place, value, whole = (np.full(shape, np.nan) for _ in range(3))
-    for index in np.ndindex(*shape):
-        band, part = bands[index[2]], tendency[index[:2]]
-        inside = (axis >= band["min"]) & (axis <= band["max"])
-        place[index], value[index] = evolution.highest_peak(axis[inside], part[inside])
-        near = (frequency >= band["min"]) & (frequency <= band["max"])
-        if near.any():
-            whole[index] = np.max(simulated[index[:2]][near], initial=-np.inf)
     none = absorbers.index("none")
+    shape = (*tendency.shape[:2], len(bands))
+    top, value, whole = (np.full(shape, np.nan) for _ in range(3))
+    for a, w, k in np.ndindex(*shape):
+        inside = (axis >= bands[k]["min"]) & (axis <= bands[k]["max"])
+        top[a, w, k], _ = evolution.highest_peak(axis[inside], tendency[a, w, inside])
+    for a, w, k in np.ndindex(*shape):
+        place = top[none, w, k]
+        if np.isfinite(place):
+            value[a, w, k] = np.max(tendency[a, w, np.abs(axis / place - 1.0) <= NEAR])
+            near = np.abs(frequency / place - 1.0) <= NEAR
+            whole[a, w, k] = np.max(simulated[a, w, near], initial=-np.inf)
     whole = np.where(np.isfinite(whole), whole, np.nan)
-    found = np.isfinite(value)
     return {
         "peak": np.array([band["name"] for band in bands]),
-        "peak_frequency": place,
+        "peak_frequency": top,
         "peak_tendency": value,
         "peak_order_tendency": whole,
         "peak_factor": value / value[none],
         "peak_order_factor": np.where(whole[none] > 0.0, whole / whole[none], np.nan),
-        "peak_status": np.where(found, "found", "no_peak"),
+        "peak_status": np.where(np.isfinite(top), "found", "no_peak"),
     }

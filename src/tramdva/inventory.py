@@ -63,16 +63,18 @@ def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -
     name = stamps["stage"]
     if name not in path.with_suffix("").parts:
         return f"{path}: holds the results of {name}"
-    if other := list(_differing(stamps, configuration, line, name, scripts)):
+    if other := list(_differing(path, stamps, configuration, line, scripts)):
         return f"{path}: comes from elsewhere, made with other {' and '.join(other)}"
     return ""
 
 
 def _differing(
-    stamps: dict[str, str], configuration: Configuration, line: str, name: str, scripts: Path
+    path: Path, stamps: dict[str, str], configuration: Configuration, line: str, scripts: Path
 ) -> Iterator[str]:
-    if name in STAGES:  # others use the values of another stage
-        expected = json.dumps(stage(configuration, line, name))
+    name = stamps["stage"]
+    values = name if name in STAGES else f"{name}_{path.stem}"  # those of an absorber
+    if values in STAGES:
+        expected = json.dumps(stage(configuration, line, values))
         if json.loads(stamps["parameters"]) != json.loads(expected):
             yield "parameters"
     if stamps["code_hash"] != code_hash(scripts / f"{name}.py"):

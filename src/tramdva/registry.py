@@ -488,11 +488,7 @@ STAGES: dict[str, Stage] = {
                 "1",
                 "largest tendency near the second bending mode over that without absorber",
             ),
-            "map_worst_factor": real(
-                "wheel map_d_T map_c_T",
-                "1",
-                "largest tendency of all frequencies over that without absorber",
-            ),
+            "map_worst_factor": real("map_d_T map_c_T", "1", "of the wheels, the largest factor"),
         },
     ),
 }
