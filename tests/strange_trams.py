@@ -36,6 +36,7 @@ import numpy as np
 import yaml
 
 from tramdva import config, results, schema
+from tramdva.bogie.stages import SHAPES
 from tramdva.parameters import Line
 from tramdva.registry import STAGES
 
@@ -53,13 +54,13 @@ COARSE: dict[str, Any] = {
     "critical_hopf_curve": {"max_points": 40, "check_points": 30},
     "absorber_tuning": {"frequency_points": 400},
     "frequency_response": {"points": 60},
-    "contact_geometry": {"shift_step": 1.0e-4, "yaw_nodes": 6},
+    "contact_geometry": {"shift_step": 8.0e-5, "yaw_nodes": 12},
     "bogie": {
-        "cells_along": 5,
-        "strips": 5,
+        "cells_along": 6,
+        "strips": 6,
         "cutoff_frequency": 300,
         "elements_per_section": 2,
-        "curvature_steps": 2,
+        "curvature_steps": 4,
     },
     "bogie_modes": {"friction_points": 2, "map_points": 2},
     "curve_entry": {"interval": 2.0e-3, "every": 10, "tolerance": 5.0e-2},
@@ -290,6 +291,7 @@ GOOD = {"converged", "completed", "nothing_found", "without_status"}
 ABSENT_WITHOUT_ABSORBER = ("m_T", "c_T", "d_T", "absorber_c_T", "absorber_d_T")
 # No critical curve at this damping; no self-excitation up to the largest friction decrease.
 ABSENT_BY_NATURE = ("critical_c_T", "critical_friction_decrease")
+APART = ("absorber", "contact")  # dimensions of what a wheel and rail that do not touch lack
 
 
 def statuses(values: Mapping[str, np.ndarray]) -> dict[str, int]:
@@ -319,6 +321,8 @@ def _explained(stage: str, name: str, values: Mapping[str, np.ndarray]) -> np.nd
     explained = np.zeros(shape, dtype=bool)
     if name.startswith("floquet_multiplier"):  # the bare wheelset has four of the six
         explained[:, 4:] = (values["absorber"] == "none")[:, None]
+    if dimensions == APART:
+        explained |= np.isnan(values["normal_force"])
     for other, variable in variables.items():
         along = len(variable.dimensions)
         if along and variable.kind != "real" and variable.dimensions == dimensions[:along]:
@@ -338,6 +342,8 @@ def _reason(name: str, other: str, flags: np.ndarray) -> np.ndarray:
         return flags == "none"
     if other == "mode_name":
         return flags == ""
+    if other == "shape_mode":  # a mode that is not there keeps its bare word as name
+        return np.isin(flags, SHAPES)
     return np.zeros(flags.shape, dtype=bool)
 
 

@@ -5,6 +5,7 @@ of a line, the record is cloned to a line per key, so that a single dry run answ
 """
 
 import base64
+import fcntl
 import json
 import re
 import shutil
@@ -15,7 +16,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tramdva import config
+from tramdva import config, supervision
 from tramdva.parameters import Numerics
 from tramdva.provenance import code_hash, reached_modules
 from tramdva.registry import STAGES
@@ -213,7 +214,10 @@ def completed_once(frozen_code: Path, snakemake, tmp_path_factory) -> Path:
     assert count == 1
     path.write_text(few, encoding="utf-8")
     make_files(folder, "paper")
-    ended = snakemake(folder, "--touch", "--forceall", "--quiet", "all")
+    (folder / supervision.FOLDER).mkdir()
+    with (folder / supervision.ALIVE).open("w") as alive:
+        fcntl.flock(alive, fcntl.LOCK_SH)  # nobody sets files aside while others are at work
+        ended = snakemake(folder, "--touch", "--forceall", "--quiet", "all")
     assert ended.returncode == 0, ended.stderr
     return folder
 
