@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--results", help="folder of full results to check, such as results/paper")
+    parser.addoption("--quick-run", help="folder of a quick run of this code, which saves one")
     parser.addoption("--slow", action="store_true", help="run the tests marked slow as well")
 
 
@@ -91,9 +92,14 @@ def snakemake(frozen_code: Path):
 
 
 @pytest.fixture(scope="session")
-def quick_run(snakemake, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def quick_run(
+    request: pytest.FixtureRequest, snakemake, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
     """Folder in which the whole pipeline ran with coarse numerics."""
     folder = tmp_path_factory.mktemp("quick")
+    if given := request.config.getoption("--quick-run"):
+        shutil.copytree(given, folder, dirs_exist_ok=True)
+        return folder
     ended = snakemake(folder, "--configfile", "config/quick.yaml")
     assert ended.returncode == 0, ended.stdout + ended.stderr
     return folder

@@ -172,7 +172,8 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     slip, strips = np.empty(field.area.shape), 0
     for j in range(slip.shape[1]):
         strips += field.area[0, j] > 0.0  # padding strips come last
-        for k in range(slip.shape[0]):
+    for k in range(slip.shape[0]):
+        for j in range(slip.shape[1]):
             slip[k, j] = _slip(field, k, j)
     worn_area, speed = 0.0, abs(rolling_speed)
     sharp = int(chart[11]) == CHART

@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.contact.fastsim import PatchGrid
+from tramdva.contact.fastsim import FAST, PatchGrid
+
+SMALLEST = 1e-300  # keeps the last interval, where the bound is zero, from 0 / 0
 
 
 class TractionField(NamedTuple):
@@ -40,7 +42,7 @@ def empty_field(grid: PatchGrid) -> TractionField:
     return TractionField(*(np.zeros(shape) for _ in TractionField._fields))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _fill_geometry(a, b, peak_pressure, grid, field):
     for k in range(grid.step.size):
         for j in range(grid.offset.size):
@@ -52,37 +54,48 @@ def _fill_geometry(a, b, peak_pressure, grid, field):
             field.pressure[k, j] = peak_pressure * grid.half_length[j] * grid.pressure_along[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _march_strip(j, a, b, scale, creepages, flexibility, grid, field):
-    """Tractions and unscaled slip of strip j; returns its force and moment integrals."""
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def _march(a, b, scale, creepages, flexibility, grid, field, state):
+    """Tractions and unscaled slip of all strips, side by side; integrals of force and moment.
+
+    `state` (2, strips) holds the tractions at the last node, zero at the start.
+    """
     nu_x, nu_y, phi = creepages
-    half, y = a * grid.half_length[j], b * grid.offset[j]
-    rate_x = nu_x / flexibility[0] - phi * y / flexibility[2]
-    rate_y, rate_spin = nu_y / flexibility[1], phi / flexibility[2]
-    limit = scale * grid.bound_across[j]
-    qx = qy = force_x = force_y = moment = 0.0
+    flexibility_x, flexibility_y, flexibility_spin = flexibility
+    rate_y, rate_spin = nu_y / flexibility_y, phi / flexibility_spin
+    qx, qy = state[0], state[1]
+    force_x = force_y = moment = 0.0
     for k in range(grid.step.size):
-        length = grid.step[k] * half
-        trial_x = qx - length * rate_x
-        trial_y = qy - length * (rate_y + rate_spin * grid.middle[k] * half)
-        capacity = grid.bound_along[k] * limit
-        trial = np.sqrt(trial_x * trial_x + trial_y * trial_y)
-        factor = capacity / trial if trial > capacity else 1.0
-        new_x, new_y = trial_x * factor, trial_y * factor
-        field.traction_x[k, j] = 0.5 * (qx + new_x)
-        field.traction_y[k, j] = 0.5 * (qy + new_y)
-        field.slip_x[k, j] = flexibility[0] * (new_x - trial_x) / length
-        field.slip_y[k, j] = flexibility[1] * (new_y - trial_y) / length
-        qx, qy = new_x, new_y
-        if k < grid.node.size:
-            area = grid.weight[k] * half * b * grid.strip_weight[j]
-            force_x += area * qx
-            force_y += area * qy
-            moment += area * (grid.node[k] * half * qy - y * qx)
+        step, middle, bound = grid.step[k], grid.middle[k], grid.bound_along[k]
+        inside = k < grid.node.size
+        weight = grid.weight[k] * a * b if inside else 0.0
+        node = grid.node[k] * a if inside else 0.0
+        traction_x, traction_y = field.traction_x[k], field.traction_y[k]
+        slip_x, slip_y = field.slip_x[k], field.slip_y[k]
+        for j in range(qx.size):
+            half, y = a * grid.half_length[j], b * grid.offset[j]
+            length = step * half
+            trial_x = qx[j] - length * (nu_x / flexibility_x - y * rate_spin)
+            trial_y = qy[j] - length * (rate_y + rate_spin * middle * half)
+            capacity = bound * scale * grid.bound_across[j]
+            squared = trial_x * trial_x + trial_y * trial_y
+            factor = capacity / np.sqrt(max(squared, capacity * capacity, SMALLEST))
+            factor = factor if squared > capacity * capacity else 1.0
+            new_x, new_y = trial_x * factor, trial_y * factor
+            traction_x[j] = 0.5 * (qx[j] + new_x)
+            traction_y[j] = 0.5 * (qy[j] + new_y)
+            slip_x[j] = flexibility_x * (new_x - trial_x) / length
+            slip_y[j] = flexibility_y * (new_y - trial_y) / length
+            qx[j] = new_x
+            qy[j] = new_y
+            area = weight * grid.half_length[j] * grid.strip_weight[j]
+            force_x += area * new_x
+            force_y += area * new_y
+            moment += area * (node * grid.half_length[j] * new_y - y * new_x)
     return force_x, force_y, moment
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _dissipation(field):
     """Integral of -traction times slip over the patch, N (power over rolling speed)."""
     total = 0.0
@@ -94,7 +107,7 @@ def _dissipation(field):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _cell_work(field, creepages):
     """Integral of -traction times rigid slip over the patch, N."""
     nu_x, nu_y, phi = creepages
@@ -118,7 +131,7 @@ def _clear(grid, field):
             field.traction_y[k, j] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _scale(slip_factor, traction_factor, field):
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
@@ -159,12 +172,8 @@ def traction_field(
     _fill_geometry(a, b, 1.5 * normal_force / (np.pi * a * b), grid, field)
     creepages = (longitudinal_creepage, lateral_creepage, spin_creepage)
     scale = friction_coefficient * normal_force / (a * b)
-    force_x = force_y = moment = 0.0
-    for j in range(grid.offset.size):
-        fx, fy, mz = _march_strip(j, a, b, scale, creepages, flexibility, grid, field)
-        force_x += fx
-        force_y += fy
-        moment += mz
+    state = np.zeros((2, grid.offset.size))
+    force_x, force_y, moment = _march(a, b, scale, creepages, flexibility, grid, field, state)
     cell_work = _cell_work(field, creepages)
     dissipated = _dissipation(field)
     if dissipated <= 0.0 or cell_work <= 0.0:
