@@ -14,8 +14,8 @@ from numba.core.dispatcher import Dispatcher
 from wheelset_lines import paper
 
 import tramdva
-from tramdva import config, warm_up
-from tramdva.bogie import line, stages
+from tramdva import config, evolution_stages, warm_up
+from tramdva.bogie import line, simulation_stage, stages
 from tramdva.self_excitation import solve_hopf_point
 from tramdva.stability import growth_rate
 from tramdva.sustained_vibration import limit_cycle_branch, orbit_extremes
@@ -26,6 +26,9 @@ CHANGES = {
         "contact_geometry": {"shift_step": 4e-5, "yaw_nodes": 18},
         "bogie": {"cells_along": 8, "strips": 8},
         "bogie_modes": {"friction_points": 2, "map_points": 2},
+        "bogie_simulation": {"samples": 128, "revolutions": 1},
+        "wear": {"wear_cells_along": 8, "wear_strips": 8},
+        "evolution_tendency": {"frequency_points": 50},
     }
 }
 
@@ -70,10 +73,24 @@ def bogie() -> None:
     stages.curve_entry(ride, tables, found)
 
 
+def wheel_wear() -> None:
+    """A simulated order, its wear and the tendency."""
+    configuration = config.load(CONFIG, overrides=CHANGES)
+    values = {name: config.stage(configuration, "paper", name) for name in config.STAGES}
+    tables = line.contact_geometry(values["contact_geometry"])
+    linear = stages.bogie_linearisation(values["bogie_linearisation_none"], tables)
+    simulated = simulation_stage.bogie_simulation(values["bogie_simulation"], 26, tables, linear)
+    worn = evolution_stages.wear(values["wear"], simulated)
+    cfg = values["evolution_tendency"]
+    cfg["study"]["absorbers"] = ["none"]
+    evolution_stages.evolution_tendency(cfg, {"none": linear}, {"none": [worn]})
+
+
 if __name__ == "__main__":
     warm_up.compile_kernels()
     before = compiled()
     wheelset()
     bogie()
+    wheel_wear()
     after = compiled()
     json.dump({"before": before, "after": after}, sys.stdout)

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from tramdva import wear, wheelset
+from tramdva import wear, wear_history, wheelset
 from tramdva.bifurcation.hopf import HopfPoint
 from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, running
-from tramdva.contact import fastsim, geometry, patch, profiles, traction_field
+from tramdva.contact import geometry, kalker, patch, profiles
 
 # Only the types matter: the results are thrown away.
 _COUNT = len(wheelset.WheelsetParameters._fields)
@@ -20,7 +20,7 @@ def compile_kernels() -> None:
         _wheelset()
         _collocation()
         contacts = _contacts()
-        _wear(contacts.law.grid)
+        _wear(contacts.law)
         _bogie(contacts)
 
 
@@ -64,15 +64,12 @@ def _contacts() -> running.Contacts:
     return running.Contacts((zone, zone), law, places)
 
 
-def _wear(grid: fastsim.PatchGrid) -> None:
-    field, chart = traction_field.empty_field(grid), wear.WearChart().as_array()
-    semi_axis, flexibility = 5e-3, (1e-14, 1e-14, 1e-14)
-    traction_field.traction_field(
-        semi_axis, semi_axis, 4e4, 0.3, 0.0, 0.05, 1.0, flexibility, grid, field
-    )
-    worn_area = wear.archard_depth(field, 4.0, chart, np.empty(grid.offset.size))
-    wear.region_areas(field, 4.0, chart, np.empty(5))
-    wear.mean_depth(worn_area, semi_axis)
+def _wear(law: patch.ContactLaw) -> None:
+    grid, chart = law.grid, wear.WearChart()
+    moment = wear_history.ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
+    wear_history.passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    wear.mean_depth(1e-9, 5e-3)
+    kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)
 
 
 def _bogie(contacts: running.Contacts) -> None:
@@ -80,15 +77,20 @@ def _bogie(contacts: running.Contacts) -> None:
     curvatures, local = np.zeros(3), np.zeros(40)
     running.contact_forces(contacts, curvatures, local)
     running.contact_jacobian(contacts, curvatures, local)
+    running.radius_sensitivity(contacts, curvatures, local)
     modal = integration.ModalContacts(
         np.zeros((2, 40)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 40))
     )
     passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
-    round_wheels = integration.Excitation(0.0, np.zeros(4), np.zeros(4), np.zeros(2))
+    zones = len(contacts.tables)
+    round_wheels = integration.Excitation(
+        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 40)), np.zeros((2, 24)),
+        np.zeros(2),
+    )  # fmt: skip
     columns = np.array(integration.RECORDED)
     integration.run(
         modal, contacts, passage, round_wheels,
         integration.step_table(np.array([-1.0 + 1.0j]), 1e-3), 1e-3, 1.0, 0, 0.0, np.zeros(2),
         integration.workspace(contacts), np.empty((1, 40)),
-        np.empty((1, 4, len(contacts.tables), columns.size)), columns, 1,
+        np.empty((1, 4, zones, columns.size)), columns, 1,
     )  # fmt: skip
