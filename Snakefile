@@ -33,6 +33,7 @@ MEASURED = {
 values = partial(stage, configuration)
 use_numba_cache()
 if supervision.enter_folder(as_job=not workflow.is_main_process):
+    inventory.take_back_dates("results", "paper_figures", "logs")
     inventory.set_aside_unusable(configuration, SCRIPTS)
 
 

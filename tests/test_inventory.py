@@ -3,9 +3,11 @@
 import base64
 import json
 import os
+import time
 from pathlib import Path
 
 import netCDF4
+import numpy as np
 import pytest
 from test_results import values_of
 
@@ -144,3 +146,31 @@ def test_file_that_cannot_be_moved(look, monkeypatch: pytest.MonkeyPatch) -> Non
 
     with pytest.raises(SystemExit, match="it cannot be set aside: Read-only file system"):
         look()
+
+
+def test_dates_in_the_future_are_taken_back_in_order(capsys) -> None:
+    now = time.time()
+    dates = {"results/a/x.nc": now - 50, "logs/a/x.log": now + 90, "results/a/y.nc": now + 100}
+    for name, date in dates.items():
+        Path(name).parent.mkdir(parents=True, exist_ok=True)
+        Path(name).touch()
+        os.utime(name, (date, date))
+
+    inventory.take_back_dates("results", "paper_figures", "logs")
+
+    taken = [Path(name).stat().st_mtime for name in dates]
+    assert taken == sorted(taken)
+    assert now - 5 < taken[-1] < now
+    np.testing.assert_allclose(np.diff(taken), [140, 10], atol=1e-3)
+    assert "the clock was put back: files are taken back by 101 s" in capsys.readouterr().err
+
+
+def test_dates_of_the_past_stay(capsys) -> None:
+    PATH.parent.mkdir(parents=True)
+    PATH.touch()
+    os.utime(PATH, (5, 5))
+
+    inventory.take_back_dates("results")
+
+    assert PATH.stat().st_mtime == 5
+    assert not capsys.readouterr().err

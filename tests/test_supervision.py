@@ -20,7 +20,7 @@ LOCK = Path(".snakemake/locks/0.output.lock")
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Work in an empty folder; locks and variables end with the test."""
     monkeypatch.chdir(tmp_path)
-    for name in ("RUN", "PROCESS", "AHEAD"):
+    for name in ("RUN", "PROCESS"):
         variable = getattr(supervision, f"{name}_VARIABLE")
         monkeypatch.setenv(variable, "")
         monkeypatch.delenv(variable)
@@ -144,34 +144,6 @@ def test_result_of_a_former_run_is_dropped(monkeypatch: pytest.MonkeyPatch) -> N
 
     assert path.read_text() == "latest"
     assert [file.name for file in path.parent.iterdir()] == ["x"]
-
-
-def test_files_are_dated_after_those_from_the_future(capsys) -> None:
-    save(Path("results/old.nc"), "")
-    tomorrow = time.time() + 86400
-    os.utime("results/old.nc", (tomorrow, tomorrow))
-    supervision.FOLDER.mkdir()
-    supervision.begin_run("results", "paper_figures")
-    save(Path("results/first.nc"), "")
-    time.sleep(0.01)
-    save(Path("results/second.nc"), "")
-
-    old, first, second = (
-        Path(f"results/{n}.nc").stat().st_mtime_ns for n in ("old", "first", "second")
-    )
-
-    assert old < first < second
-    assert "ahead of the clock" in capsys.readouterr().err
-
-
-def test_dates_stay_where_the_clock_is_right(capsys) -> None:
-    save(Path("results/old.nc"), "")
-    supervision.FOLDER.mkdir()
-    supervision.begin_run("results")
-    save(Path("results/new.nc"), "")
-
-    assert abs(Path("results/new.nc").stat().st_mtime - time.time()) < 5
-    assert not capsys.readouterr().err
 
 
 JOB = """

@@ -1,8 +1,13 @@
-"""Look through `results/` before a run: what this pipeline did not make here is set aside."""
+"""Look through `results/` before a run.
+
+What this pipeline did not make here is set aside, and dates in the future are taken back.
+"""
 
 from __future__ import annotations
 
 import json
+import os
+import time
 from base64 import urlsafe_b64encode
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +17,29 @@ from tramdva.config import STAGES, Configuration, stage
 from tramdva.provenance import code_hash
 
 SET_ASIDE = ".set-aside"
+SECOND = 1_000_000_000  # in ns
+
+
+def take_back_dates(*folders: str) -> None:
+    """Let no file be newer than the clock; which of two is newer stays as it is.
+
+    Where the clock was put back, a file made now would be older than what was once made from its
+    predecessor, which would pass for current.
+
+    Parameters
+    ----------
+    *folders : str
+        Where the files of the pipeline are.
+    """
+    files = (path for name in folders for path in Path(name).rglob("*") if path.is_file())
+    dates = sorted((path.stat().st_mtime_ns, path) for path in files)
+    ahead = (dates[-1][0] if dates else 0) - time.time_ns()
+    if ahead <= 0:
+        return
+    supervision.say(f"the clock was put back: files are taken back by {ahead / SECOND + 1:.0f} s")
+    for date, path in dates:  # the oldest first: an interruption does not change the order
+        earlier = date - ahead - SECOND
+        os.utime(path, ns=(earlier, earlier))
 
 
 def set_aside_unusable(configuration: Configuration, scripts: Path) -> None:

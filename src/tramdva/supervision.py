@@ -17,7 +17,6 @@ import signal
 import socket
 import sys
 import threading
-import time
 import uuid
 from pathlib import Path
 from typing import IO
@@ -27,7 +26,6 @@ ALIVE = FOLDER / "tramdva-alive"  # locked by living processes; names the machin
 RUN = FOLDER / "tramdva-run"  # names the latest run
 RUN_VARIABLE = "TRAMDVA_RUN"
 PROCESS_VARIABLE = "TRAMDVA_SNAKEMAKE_PROCESS"
-AHEAD_VARIABLE = "TRAMDVA_NANOSECONDS_AHEAD"
 LEAST_FREE = 200_000  # bytes, for locks, logs and records
 
 _held: list[IO[str]] = []  # open as long as this process lives
@@ -119,9 +117,6 @@ def say(text: str) -> None:
 def begin_run(*folders: str) -> None:
     """Make this the run whose jobs may put results in place.
 
-    Files that are newer than the clock, which was put back then, would pass for newer than all
-    that this run makes: its files are dated after them.
-
     Parameters
     ----------
     *folders : str
@@ -138,11 +133,6 @@ def begin_run(*folders: str) -> None:
     token = uuid.uuid4().hex
     os.environ[RUN_VARIABLE] = token
     RUN.write_text(f"{token} process {os.getpid()} on {socket.gethostname()}", encoding="utf-8")
-    dates = (path.stat().st_mtime_ns for name in folders for path in Path(name).rglob("*.*"))
-    ahead = max(dates, default=0) - time.time_ns()
-    if ahead > 0:
-        say(f"files here are {ahead / 1e9:.0f} s ahead of the clock; new ones are dated after them")
-        os.environ[AHEAD_VARIABLE] = str(ahead + 1_000_000_000)
     _terminate_without_deadlock()
 
 
@@ -192,7 +182,4 @@ def put_in_place(part: Path, path: Path) -> None:
         latest = RUN.read_text(encoding="utf-8").partition(" ")[0]
         if latest != own:
             raise SupersededError(f"{path}: another run has begun in this folder; result dropped")
-    if ahead := os.environ.get(AHEAD_VARIABLE):
-        date = time.time_ns() + int(ahead)
-        os.utime(part, ns=(date, date))
     part.replace(path)
