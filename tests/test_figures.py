@@ -193,6 +193,7 @@ def frequency_response() -> dict[str, np.ndarray]:
         "receptance_amplitude": amplitude,
         "receptance_phase": np.zeros_like(amplitude),
         "y_R_equilibrium": np.array(1.5),
+        "status": np.full(4, "converged"),
     }
 
 
