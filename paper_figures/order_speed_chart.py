@@ -41,7 +41,7 @@ def draw(maps: dict[str, np.ndarray], cfg: dict) -> Figure:
         draw_map(panels[row, 2], maps, "radius", none, row, norm)
         panels[row, 2].set_title("no absorber, over the radius", fontsize="medium")
         panels[row, 0].set_ylabel(f"{str(wheel).replace('_', ' ')}\nfrequency (Hz)")
-        powers = [p for p in (0.1, 1.0, 10.0, 100.0, 1e3) if 3 * LINEAR * scale < p <= scale]
+        powers = [p for p in (0.1, 1.0, 10.0, 100.0, 1e3) if 1.5 * LINEAR * scale < p <= scale]
         figure.colorbar(
             image,
             ax=list(panels[row]),
