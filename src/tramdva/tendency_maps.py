@@ -87,7 +87,7 @@ def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str
         for way in (range(own, values.size), range(own - 1, -1, -1)):
             state = known
             for k in way:
-                state = _changed(state, design, {name: float(values[k])})
+                state = _reached(state, design, name, float(values[k]))
                 status[i, k] = state.equilibrium.status
                 if state.equilibrium.status != "converged":
                     break
@@ -112,6 +112,18 @@ def _design(line: BogieLine, design: Sequence[float]):
         return None
     own = line.bogie.absorber
     return own.model_copy(update={"I_T": inertia, "c_T": stiffness, "d_T": damping})
+
+
+def _reached(known: _State, design, name: str, value: float, halvings: int = 4) -> _State:
+    """Equilibrium at another value of a field of the track, by way of values between if need be."""
+    state = _changed(known, design, {name: value})
+    if state.equilibrium.status == "converged" or halvings == 0:
+        return state
+    middle = float(np.sqrt(value * getattr(known.line.track, name)))
+    between = _reached(known, design, name, middle, halvings - 1)
+    if between.equilibrium.status != "converged":
+        return state
+    return _reached(between, design, name, value, halvings - 1)
 
 
 def _changed(known: _State, design, track: Mapping[str, float]) -> _State:
