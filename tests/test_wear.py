@@ -87,9 +87,6 @@ def test_shares_of_the_patch_sum_to_one():
     assert seizure["seizure"] > 0.5
     stick = wear.region_shares(patch(creepages=(0.0, 0.0, 0.0)), 4.0, chart)
     assert stick["adhesion"] == pytest.approx(1.0)
-    mean = wear.region_time_shares(np.array([list(inner.values()), list(outer.values())]))
-    assert_allclose(sum(mean.values()), 1.0, rtol=1e-12)
-    assert_allclose(mean["severe"], (inner["severe"] + outer["severe"]) / 2, rtol=1e-12)
 
 
 def test_the_steps_of_the_chart_leave_no_stairs_in_the_wear_of_a_patch():

@@ -68,7 +68,6 @@ def _wear(law: patch.ContactLaw) -> None:
     grid, chart = law.grid, wear.WearChart()
     moment = wear_history.ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
     wear_history.passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
-    wear.mean_depth(1e-9, 5e-3)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)
 
 

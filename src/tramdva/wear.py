@@ -213,12 +213,6 @@ def region_areas(field, rolling_speed, chart, areas):
             areas[region] += field.area[k, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def mean_depth(worn_area, semi_axis_lateral):
-    """Wear depth in m averaged over the width 2 b of the patch."""
-    return worn_area / (2.0 * semi_axis_lateral) if semi_axis_lateral > 0.0 else 0.0
-
-
 def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) -> dict[str, float]:
     """Share of the patch area in each region, and `adhesion`; sums to one in contact."""
     areas = np.zeros(5)
@@ -227,18 +221,3 @@ def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) 
     names = (*REGIONS, "adhesion")
     shares = areas / total if total > 0.0 else areas
     return dict(zip(names, shares, strict=True))
-
-
-def region_time_shares(
-    shares: np.ndarray, contact_time: np.ndarray | None = None
-) -> dict[str, float]:
-    """Share of time and patch in each region.
-
-    Parameters
-    ----------
-    shares : (times, 5) patch shares (the four regions and adhesion) at equal time steps
-    contact_time : (times,) weights, for example step sizes in s; equal steps if omitted
-    """
-    weight = np.ones(len(shares)) if contact_time is None else np.asarray(contact_time)
-    mean = weight @ np.asarray(shares) / weight.sum()
-    return dict(zip((*REGIONS, "adhesion"), mean, strict=True))
