@@ -259,6 +259,7 @@ STAGES: dict[str, Stage] = {
         "Modes and self-excitation of the bogie in the curve",
         {
             **_BOGIE_ABSORBERS,
+            "status": flag("absorber", CURVING_STATUS, "status of the equilibrium"),
             "friction_decrease": real("friction_decrease", "s/m", "exponential decrease B"),
             "frequency": real("absorber friction_decrease mode", "Hz", "frequency"),
             "damping_ratio": real("absorber friction_decrease mode", "1", "damping ratio"),

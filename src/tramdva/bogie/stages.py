@@ -146,6 +146,7 @@ def bogie_modes(
     ]
     return {
         **{name: curving_equilibrium[name] for name in ("absorber", "m_T", "c_T", "d_T")},
+        "status": curving_equilibrium["status"],
         "friction_decrease": decrease,
         **_mode_table(table, len(runs), len(decrease)),
         "operating_growth_rate": np.array([c.growth_rate for c in operating]),
