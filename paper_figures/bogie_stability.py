@@ -42,7 +42,7 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     sought = modes["frequency"] > SOUGHT
     growth = np.where(sought, modes["growth_rate"], -np.inf).max(axis=2)
     for row, name in enumerate(modes["absorber"]):
-        words = figures.design_name(str(name)).replace("Table 2", "Table 3")
+        words = figures.absorber_name(str(name))
         critical = modes["critical_friction_decrease"][row]
         if np.isfinite(critical):
             words += f": unstable from {critical:.2f} s/m"
@@ -71,9 +71,7 @@ def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
     for row, marker in ((1, "s"), (2, "o")):
         axes.plot(
             modes["c_T"][row] / 1e5, modes["d_T"][row], marker, markerfacecolor="white",
-            markeredgecolor="black", label=figures.design_name(str(modes["absorber"][row])).replace(
-                "Table 2", "Table 3"
-            ),
+            markeredgecolor="black", label=figures.absorber_name(str(modes["absorber"][row])),
         )  # fmt: skip
     axes.set(xlabel="stiffness (10⁵ N m/rad)", ylabel="damping (N m s/rad)")
 

@@ -9,10 +9,13 @@ from matplotlib.figure import Figure
 from tramdva import figures, job, results
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
+STYLES = {
+    "none": {"linewidth": 1.2},
+    "paper": {"linewidth": 1.8},
+    "tuned": {"linewidth": 1.2, "linestyle": "--"},
+}
 LOOKS = {
-    "none": {"color": "C1", "linewidth": 1.2},  # blue and grey as in the paper
-    "paper": {"color": "0.55", "linewidth": 1.8},
-    "tuned": {"color": "C2", "linewidth": 1.2, "linestyle": "--"},
+    name: {"color": colour, **STYLES[name]} for name, colour in figures.ABSORBER_COLOURS.items()
 }
 MARKERS = {"none": "o", "paper": "s", "tuned": "D"}
 DETAIL = 0.3  # of the frequency axis: the low peaks are small
@@ -98,7 +101,7 @@ def legend(tendency: dict[str, np.ndarray]) -> list:
     """Entries of the legend: absorbers as lines, simulations as marks."""
     entries = []
     for name in map(str, tendency["absorber"]):
-        words = figures.design_name(name).replace("Table 2", "Table 3")
+        words = figures.absorber_name(name)
         entries.append(figures.key(f"{words}, linearised", **LOOKS[name]))
         mark = {"color": LOOKS[name]["color"], "marker": MARKERS[name], "markersize": 2.6}
         entries.append(figures.key(f"{words}, simulated orders", linestyle="none", **mark))

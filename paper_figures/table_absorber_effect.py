@@ -39,7 +39,7 @@ def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
                     [
                         wheel.replace("_", " "),
                         peak.replace("_", " "),
-                        figures.design_name(absorber).replace("Table 2", "Table 3"),
+                        figures.absorber_name(absorber),
                         number(tendency["peak_frequency"][place], "{:.1f}"),
                         number(tendency["peak_tendency"][place] / largest, "{:.3f}"),
                         number(tendency["peak_factor"][place], "{:.2f}"),

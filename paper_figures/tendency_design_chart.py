@@ -56,7 +56,7 @@ def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray):
             continue
         place = maps["c_T"][row] / STIFFNESS, maps["d_T"][row]
         axes.plot(*place, "s", markerfacecolor="white", markeredgecolor="black")
-        words = figures.design_name(name).replace("line's absorber (Table 2)", "Table 3")
+        words = figures.absorber_name(name, short=True)
         axes.annotate(words, place, (5, 4), textcoords="offset points", color="white")
     low = np.unravel_index(np.argmin(factor), factor.shape)
     axes.plot(stiffness[low[1]], maps["map_d_T"][low[0]], "o", color="white", markersize=3)

@@ -69,10 +69,10 @@ def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     order = tendency["order"]
     axes.step(order, tendency["level"][row], where="mid", color="black", linewidth=0.9, label="now")
     for k, name in enumerate(map(str, tendency["absorber"])):
-        words = figures.design_name(name).replace("line's absorber (Table 2)", "Table 3")
+        words = figures.absorber_name(name, short=True)
         axes.step(
-            order, tendency["level_after"][k, row], where="mid", color=("C1", "0.55", "C2")[k],
-            linewidth=1.1, label=f"later, {words}",
+            order, tendency["level_after"][k, row], where="mid",
+            color=figures.ABSORBER_COLOURS[name], linewidth=1.1, label=f"later, {words}",
         )  # fmt: skip
     axes.set(xlabel="order (waves around the wheel)", ylabel="level (dB re 1 µm)")
     low, high = axes.get_ylim()

@@ -103,3 +103,13 @@ def quick_run(
     ended = snakemake(folder, "--configfile", "config/quick.yaml")
     assert ended.returncode == 0, ended.stdout + ended.stderr
     return folder
+
+
+@pytest.fixture(scope="session")
+def read(request: pytest.FixtureRequest):
+    """Read the file of a stage of the run that `--results` names, or of the quick run."""
+    from tramdva import results
+
+    given = request.config.getoption("--results")
+    folder = Path(given) if given else request.getfixturevalue("quick_run") / "results/paper"
+    return lambda stage: results.read(folder / f"{stage}.nc")

@@ -1,24 +1,21 @@
 """Figures of ordinary and of strange results: each is drawn and says what happened."""
 
 import csv
-import importlib.util
 import io
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 
 import matplotlib as mpl
 import numpy as np
 import pytest
+from figure_scripts import STYLE, script, texts
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 from PIL import Image
 
 from tramdva import figures, results
 from tramdva.registry import STAGES
 
-FOLDER = Path(__file__).parents[1] / "paper_figures"
 CFG = {
     "label": "A $ line",
     "absorber": {"c_T": 4.3e6, "d_T": 6850.0},
@@ -197,30 +194,17 @@ def frequency_response() -> dict[str, np.ndarray]:
     }
 
 
-def script(name: str) -> ModuleType:
-    (path,) = FOLDER.glob(f"{name}_*.py")
-    module = importlib.util.module_from_spec(
-        spec := importlib.util.spec_from_file_location(name, path)
-    )
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture
 def draw() -> Callable[..., Figure]:
     """Draw a figure without writing it."""
 
     def drawn(name: str, *data: dict) -> Figure:
-        with figures.style(FOLDER / "tramdva.mplstyle"):
+        with figures.style(STYLE):
             figure = script(name).draw(*data)
             figure.draw_without_rendering()
         return figure
 
     return drawn
-
-
-def texts(figure: Figure) -> str:
-    return "\n".join(text.get_text() for text in figure.findobj(Text) if text.get_visible())
 
 
 def lines(axes: Axes, **look: object) -> list:

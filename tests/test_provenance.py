@@ -15,8 +15,9 @@ from tramdva.provenance import code_hash, use_numba_cache
 
 SOURCES = {
     "__init__.py": '"""Nomenclature."""\n',
-    "results.py": "from tramdva.registry import STAGES\n",
-    "registry.py": "KINDS = 1\nSTAGES: dict = {'wear': 1, 'force': 2}\n",
+    "results.py": "from tramdva.registry import TABLES\n",
+    "registry.py": "from tramdva import wheel_variables\nTABLES = [wheel_variables.STAGES]\n",
+    "wheel_variables.py": "KINDS = 1\nSTAGES: dict = {'wear': 1, 'force': 2}\n",
     "job.py": "import logging\n",
     "force.py": '"""Force."""\n\n\ndef force(w):\n    """Return it."""\n    return 2 * w  # N\n',
     "wear.py": "import tramdva.contact.hertz as hertz\nfrom tramdva import force\n",
@@ -52,6 +53,7 @@ def hash_after(package: Path, name: str, text: str) -> str:
         "__init__.py",
         "results.py",
         "registry.py",
+        "wheel_variables.py",
         "force.py",
         "wear.py",
         "contact/__init__.py",
@@ -92,8 +94,10 @@ def test_only_the_own_entry_of_the_registry_counts(package: Path) -> None:
     before = code_hash(package.parent / "wear.py", package=package)
     head = "KINDS = 1\nSTAGES: dict = "
 
-    assert hash_after(package, "registry.py", head + "{'wear': 1, 'force': 3, 'x': 4}\n") == before
-    assert hash_after(package, "registry.py", head + "{'wear': 2, 'force': 2}\n") != before
+    same, other = "{'wear': 1, 'force': 3, 'x': 4}\n", "{'wear': 2, 'force': 2}\n"
+
+    assert hash_after(package, "wheel_variables.py", head + same) == before
+    assert hash_after(package, "wheel_variables.py", head + other) != before
 
 
 def test_dates_and_place_do_not_count(package: Path, tmp_path: Path) -> None:

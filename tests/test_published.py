@@ -11,25 +11,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from tramdva import results
-
 PUBLISHED = Path(__file__).parent / "published/basic_model.csv"
 
 
 def rows() -> list[dict[str, str]]:
     with PUBLISHED.open(encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
-@pytest.fixture(scope="module")
-def folder(request: pytest.FixtureRequest) -> Path:
-    given = request.config.getoption("--results")
-    return Path(given) if given else request.getfixturevalue("quick_run") / "results/paper"
-
-
-@pytest.fixture(scope="module")
-def read(folder: Path):
-    return lambda stage: results.read(folder / f"{stage}.nc")
 
 
 def peak(response, design, low, high):

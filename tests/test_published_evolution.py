@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tramdva import results
-
 PUBLISHED = Path(__file__).parent / "published/evolution_tendency.csv"
 # The inner wheel's peak (3) is the flank at 108 Hz below a negative tendency at 117 Hz, where the
 # paper has a peak at about 120 Hz: the table's tolerance of 13 Hz says so.
@@ -17,13 +15,6 @@ PUBLISHED = Path(__file__).parent / "published/evolution_tendency.csv"
 def rows() -> list[dict[str, str]]:
     with PUBLISHED.open(encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
-@pytest.fixture(scope="module")
-def read(request: pytest.FixtureRequest):
-    given = request.config.getoption("--results")
-    folder = Path(given) if given else request.getfixturevalue("quick_run") / "results/paper"
-    return lambda stage: results.read(folder / f"{stage}.nc")
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from tramdva import registry, results
+from tramdva import bogie_variables, evolution_variables, results, wheelset_variables
 from tramdva.registry import STAGES
 
 LENGTHS = {"absorber": 3, "design": 4, "frequency": 7, "multiplier": 6}
@@ -120,8 +120,14 @@ def test_registry_names_all_it_needs() -> None:
             assert description.variables[name].dimensions == (name,), (stage, name)
 
 
+def test_each_stage_stands_in_one_table() -> None:
+    tables = (wheelset_variables, bogie_variables, evolution_variables)
+
+    assert len(STAGES) == sum(len(table.STAGES) for table in tables)
+
+
 def test_statuses_keep_their_numbers() -> None:
-    assert registry.STATUS[:3] == ("converged", "not_converged", "no_hopf_point")
+    assert wheelset_variables.STATUS[:3] == ("converged", "not_converged", "no_hopf_point")
 
 
 def test_flags_by_meaning_or_number(tmp_path: Path) -> None:

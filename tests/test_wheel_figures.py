@@ -1,28 +1,17 @@
 """Figures and tables of wheel wear, on results of few numbers."""
 
 import csv
-import importlib.util
-from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
-from matplotlib.text import Text
+from figure_scripts import STYLE, script, texts
 
 from tramdva import figures, results
 from tramdva.registry import STAGES
 
-ROOT = Path(__file__).resolve().parents[1]
 BAND = {"min": 45.0, "max": 65.0}
 CODE = "0" * 20
 PEAKS = ["first_bending", "second_bending", "third_bending", "resilient_wheel"]
-
-
-def script(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, ROOT / f"paper_figures/{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def filled(stage: str, given: dict, **lengths: int) -> dict[str, np.ndarray]:
@@ -101,22 +90,21 @@ def tendency_maps(absorbers=("none", "paper"), **changed):
     )  # fmt: skip
 
 
-def texts(figure) -> str:
+def drawn_texts(figure) -> str:
     figure.draw_without_rendering()
-    found = [t.get_text() for t in figure.findobj(Text)]
-    return "\n".join(found)
+    return texts(figure)
 
 
 @pytest.fixture
 def style():
-    with figures.style(ROOT / "paper_figures/tramdva.mplstyle"):
+    with figures.style(STYLE):
         yield
 
 
 @pytest.mark.parametrize("absorbers", [("none",), ("none", "paper"), ("none", "paper", "tuned")])
 def test_tendency_names_its_peaks_and_absorbers(style, absorbers):
     figure = script("fig10_evolution_tendency").draw(evolution_tendency(absorbers))
-    said = texts(figure)
+    said = drawn_texts(figure)
     for words in ("55 Hz", "73 Hz", "117 Hz", "front outer wheel", "no absorber, linearised"):
         assert words in said
     assert ("Table 3" in said) == ("paper" in absorbers)
@@ -150,7 +138,7 @@ def test_wheels_are_shown_with_the_order_of_the_band_of_design(style, tmp_path):
     )  # fmt: skip
     assert (tmp_path / "x.png").read_bytes().startswith(b"\x89PNG")
     figure = script("worn_wheels").draw(evolution_tendency(), [worn(26), worn(26)])
-    assert "front inner wheel, order 26, 55.2 Hz" in texts(figure)
+    assert "front inner wheel, order 26, 55.2 Hz" in drawn_texts(figure)
 
 
 def test_chart_over_speed_tells_where_no_equilibrium_was_found(style):
@@ -158,7 +146,7 @@ def test_chart_over_speed_tells_where_no_equilibrium_was_found(style):
     status[1] = "wheel_lifted"
     maps = tendency_maps(speed_status=status)
     cfg = {"bogie": {"wheel": {"radius": 0.3}}}
-    said = texts(script("order_speed_chart").draw(maps, cfg))
+    said = drawn_texts(script("order_speed_chart").draw(maps, cfg))
     assert said.count("no equilibrium found") == 2
     assert "radius (m)" in said
     assert "front inner" in said
@@ -166,7 +154,7 @@ def test_chart_over_speed_tells_where_no_equilibrium_was_found(style):
 
 def test_design_chart_marks_the_best_absorber(style):
     figure = script("tendency_design_chart").draw(tendency_maps(), BAND)
-    said = texts(figure)
+    said = drawn_texts(figure)
     assert "best: 0.20" in said
     assert "best: 0.30" in said
     assert "Table 3" in said

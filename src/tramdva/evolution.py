@@ -10,6 +10,7 @@ is positive where more is removed in the troughs: the order grows, by d ln|R_n| 
 polygon drifts around the wheel at arg-rate -Im H_n.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,11 +25,10 @@ from tramdva.contact import patch
 from tramdva.contact.fastsim import PatchGrid
 from tramdva.wear import WearChart
 from tramdva.wear_derivative import worn_area_gradient
+from tramdva.wear_history import ContactHistory
 
-WEAR_INPUTS = (
-    patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL, patch.NORMAL_FORCE, patch.FRICTION,
-    patch.LONGITUDINAL_CREEPAGE, patch.LATERAL_CREEPAGE, patch.SPIN_CREEPAGE,
-)  # fmt: skip
+# Results of a contact on which its wear depends.
+WEAR_INPUTS = [getattr(patch, name.upper()) for name in ContactHistory._fields]
 
 
 def excitation_frequency(order, speed: float, wheel_radius: float):
@@ -79,7 +79,7 @@ def wear_sensitivity(
     worn = bogie.touching & (wheel_mask(wheels) > 0.0)[:, None]
     for wheel, zone in zip(*np.nonzero(worn), strict=True):
         area[wheel, zone], gradient[wheel, zone] = worn_area_gradient(
-            bogie.results[wheel, zone, list(WEAR_INPUTS)],
+            bogie.results[wheel, zone, WEAR_INPUTS],
             law.kalker_table,
             law.shear_modulus,
             grid,
@@ -105,6 +105,14 @@ class WearRows(NamedTuple):
     local: np.ndarray
     direct: np.ndarray
     source: np.ndarray
+
+    def output(self, wheels: Sequence[int]) -> np.ndarray:
+        """Wear of some wheels per local variables (f, wheels, 40) of all contacts."""
+        count, places, own = self.local.shape
+        out = np.zeros((count, len(wheels), places, own), complex)
+        for row, wheel in enumerate(wheels):
+            out[:, row, wheel] = self.local[:, wheel]
+        return out.reshape(count, len(wheels), -1)
 
 
 def wear_rows(
@@ -132,7 +140,7 @@ def wear_rows(
 
     def wear_by(sensitivity: np.ndarray) -> np.ndarray:
         """Wear (f, 4, zones, k) from derivatives (4, zones, results, k) of the contacts."""
-        steady = np.einsum("wzck,wzc->wzk", sensitivity[:, :, list(WEAR_INPUTS)], wear.gradient)
+        steady = np.einsum("wzck,wzc->wzk", sensitivity[:, :, WEAR_INPUTS], wear.gradient)
         return steady - passing[..., None] * sensitivity[:, :, patch.FORWARD_SHIFT]
 
     deviation = wear_by(bogie.sensitivity.deviation)

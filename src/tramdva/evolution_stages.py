@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from tramdva import evolution
-from tramdva.bogie.rough_wheel_files import StoredBogie, stored_bogie
+from tramdva.bogie.rough_wheel_files import stored_bogie
+from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.vehicle import WHEELS
-from tramdva.contact import fastsim
+from tramdva.contact import fastsim, patch
 from tramdva.out_of_roundness import level, radius_deviation
 from tramdva.wear import WearChart
 from tramdva.wear_history import AREAS, ContactHistory, depth_around, passages, wear_orders
@@ -24,6 +25,33 @@ def wear_chart(cfg: Mapping[str, Any]) -> WearChart:
 def wear_grid(cfg: Mapping[str, Any]) -> fastsim.PatchGrid:
     """Cells of the worn patch."""
     return fastsim.patch_grid(cfg["numerics"]["wear_cells_along"], cfg["numerics"]["wear_strips"])
+
+
+def worn_wheels(cfg: Mapping[str, Any]) -> list[int]:
+    """Places of the wheels out of round in `vehicle.WHEELS`."""
+    return [WHEELS.index(name) for name in cfg["out_of_roundness"]["wheels"]]
+
+
+def wear_in_equilibrium(
+    cfg: Mapping[str, Any], bogie: RoughBogie, law: patch.ContactLaw
+) -> evolution.WearSensitivity:
+    """Wear of the wheels out of round and its derivatives, by the configured chart and cells."""
+    wheels = cfg["out_of_roundness"]["wheels"]
+    return evolution.wear_sensitivity(bogie, law, wear_grid(cfg), wear_chart(cfg), wheels)
+
+
+def linear_response(
+    cfg: Mapping[str, Any],
+    bogie: RoughBogie,
+    wear: evolution.WearSensitivity,
+    frequency: np.ndarray,
+    speed: float,
+    wheel_radius: float,
+) -> np.ndarray:
+    """Wear response (wheel, f) of the wheels out of round; see `evolution.linear_wear_response`."""
+    wheels = cfg["out_of_roundness"]["wheels"]
+    response = evolution.linear_wear_response(bogie, wear, frequency, speed, wheel_radius, wheels)
+    return response[:, worn_wheels(cfg)].T
 
 
 def wear(cfg: Mapping[str, Any], simulation: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -132,8 +160,14 @@ def evolution_tendency(
         study["frequency"]["min"], study["frequency"]["max"], cfg["numerics"]["frequency_points"]
     )
     frequency = evolution.excitation_frequency(orders, speed, radius)
-    linear = np.array([_linear_response(cfg, stored[name], axis) for name in absorbers])
-    at_orders = np.array([_linear_response(cfg, stored[name], frequency) for name in absorbers])
+    worn_mean, linear, at_orders = [], [], []
+    for name in absorbers:
+        bogie, law = stored[name].bogie, stored[name].law
+        sensitivity = wear_in_equilibrium(cfg, bogie, law)
+        worn_mean.append(sensitivity.mean_depth()[worn_wheels(cfg)])
+        linear.append(linear_response(cfg, bogie, sensitivity, axis, speed, radius))
+        at_orders.append(linear_response(cfg, bogie, sensitivity, frequency, speed, radius))
+    linear, at_orders = np.array(linear), np.array(at_orders)
     simulated = _simulated(absorbers, worn)
     # One scale for all curves of a wheel: that of the simulated orders, as in the paper.
     scale = simulated["evolution_tendency"][absorbers.index("none")]
@@ -155,38 +189,9 @@ def evolution_tendency(
         "linearised_normalised": evolution.normalised(evolution.evolution_tendency(linear), scale),
         "order_linearised_real": at_orders.real,
         "order_linearised_imag": at_orders.imag,
-        "linearised_mean_wear_depth": np.array(
-            [_sensitivity(cfg, stored[n]).mean_depth()[_chosen(cfg)] for n in absorbers]
-        ),
+        "linearised_mean_wear_depth": np.array(worn_mean),
         **_peaks(cfg, absorbers, axis, linear, frequency, simulated["evolution_tendency"]),
     }
-
-
-def _chosen(cfg: Mapping[str, Any]) -> list[int]:
-    return [WHEELS.index(name) for name in cfg["out_of_roundness"]["wheels"]]
-
-
-def _sensitivity(cfg, stored: StoredBogie) -> evolution.WearSensitivity:
-    return evolution.wear_sensitivity(
-        stored.bogie,
-        stored.law,
-        wear_grid(cfg),
-        wear_chart(cfg),
-        cfg["out_of_roundness"]["wheels"],
-    )
-
-
-def _linear_response(cfg, stored: StoredBogie, frequency: np.ndarray) -> np.ndarray:
-    """Wear response (wheel, f) of the wheels out of round."""
-    response = evolution.linear_wear_response(
-        stored.bogie,
-        _sensitivity(cfg, stored),
-        frequency,
-        stored.places.speed,
-        stored.wheel_radius,
-        cfg["out_of_roundness"]["wheels"],
-    )
-    return response[:, _chosen(cfg)].T
 
 
 def _absorbers(linearisations, absorbers: Sequence[str]) -> dict[str, np.ndarray]:

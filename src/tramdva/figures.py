@@ -47,6 +47,9 @@ DESIGNS = {
     "h_infinity": "lowest peak (H∞)",
 }
 
+# Absorbers of the bogie; without and with the paper's as in the paper.
+ABSORBER_COLOURS = {"none": "C1", "paper": "0.55", "tuned": "C2"}
+
 
 def design_name(design: str) -> str:
     """Name a design of the absorber for readers."""
@@ -67,6 +70,13 @@ def mode_name(mode: str) -> str:
     for ending, words in MODES.items():
         mode = mode.removesuffix(ending) + words if mode.endswith(ending) else mode
     return mode.replace("_", " ")
+
+
+def absorber_name(absorber: str, short: bool = False) -> str:
+    """Name an absorber of the bogie for readers."""
+    if absorber == "paper":
+        return "Table 3" if short else "line's absorber (Table 3)"
+    return design_name(absorber)
 
 
 def style(path: str | Path) -> AbstractContextManager[None]:

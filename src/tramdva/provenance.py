@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 PACKAGE = Path(__file__).parent
-REGISTRY = "tramdva.registry"  # of its table, only the entry of the stage counts
+RESULT_TABLE = re.compile(r"tramdva\.\w+_variables")  # only the entry of the stage counts
 WITHOUT_EFFECT = frozenset(
     {"tramdva.job", "tramdva.supervision"}
 )  # modules that cannot change a result
@@ -43,7 +43,7 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     script = Path(script)
     digest = hashlib.sha256(_tree_hash(script))
     for name in sorted(reached_modules(script, package)):
-        stage = script.stem if name == REGISTRY else ""
+        stage = script.stem if RESULT_TABLE.fullmatch(name) else ""
         digest.update(name.encode() + _tree_hash(_file(name, package), stage))
     for path in data:
         digest.update(Path(path).read_bytes())
@@ -173,7 +173,7 @@ def _drop_docstring(node: ast.AST) -> None:
 
 
 def _keep_entry(tree: ast.Module, stage: str) -> None:
-    """Drop the entries of other stages from the table STAGES of the registry."""
+    """Drop the entries of other stages from a table STAGES of result variables."""
     for node in tree.body:
         if isinstance(node, ast.AnnAssign) and getattr(node.target, "id", "") == "STAGES":
             table = node.value

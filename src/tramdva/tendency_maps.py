@@ -1,6 +1,6 @@
 """The stage `tendency_maps`: evolution tendency over speed, curve radius and absorber."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,11 +8,16 @@ import numpy as np
 from tramdva import evolution
 from tramdva.bogie import attached_absorbers
 from tramdva.bogie.curving import Equilibrium, System, equilibrium
-from tramdva.bogie.line import BogieLine, bogie_line, run_through, systems, transferred
+from tramdva.bogie.line import (
+    BogieLine,
+    quiet_bogie_line,
+    run_through,
+    systems,
+    transferred,
+)
+from tramdva.bogie.line import absorber as absorber_of
 from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
-from tramdva.bogie.running import LOCALS
-from tramdva.bogie.vehicle import WHEELS
-from tramdva.evolution_stages import wear_chart, wear_grid
+from tramdva.evolution_stages import linear_response, wear_in_equilibrium, worn_wheels
 
 
 class _State(NamedTuple):
@@ -41,8 +46,7 @@ def tendency_maps(
     Variables of ``tendency_maps``.
     """
     study, numerics = cfg["study"], cfg["numerics"]
-    force = cfg["creep_force"] | cfg["forced_excitation"]
-    line = bogie_line({**cfg, "creep_force": force}, contact_geometry)
+    line = quiet_bogie_line(cfg, contact_geometry)
     none = run_through(line, numerics["curvature_steps"])
     known = _State(line, none.curve, none.equilibrium)
     frequency = np.linspace(
@@ -83,7 +87,7 @@ def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str
     status = np.full((len(absorbers), values.size), "not_converged", dtype="U20")
     own = int(np.argmin(np.abs(values - getattr(known.line.track, name))))
     for i, absorber in enumerate(absorbers):
-        design = _design(known.line, designs[absorber])
+        design = absorber_of(known.line, *designs[absorber][1:])
         for way in (range(own, values.size), range(own - 1, -1, -1)):
             state = known
             for k in way:
@@ -93,7 +97,10 @@ def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str
                     break
                 bogie = rough_bogie(state.system, state.equilibrium)
                 growth[i, k] = _growth_rate(bogie, cfg["study"]["design_band"])
-                tendency[i, :, k] = _tendency(cfg, state, bogie, frequency)
+                worn = wear_in_equilibrium(cfg, bogie, state.system.contacts.law)
+                track, wheel = state.line.track, state.line.bogie.wheel
+                response = linear_response(cfg, bogie, worn, frequency, track.speed, wheel.radius)
+                tendency[i, :, k] = evolution.evolution_tendency(response)
     return {"tendency": tendency, "growth_rate": growth, "status": status}
 
 
@@ -103,15 +110,6 @@ def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
     frequency = value.imag / (2.0 * np.pi)
     inside = (frequency >= band["min"]) & (frequency <= band["max"])
     return float(value.real[inside].max()) if inside.any() else np.nan
-
-
-def _design(line: BogieLine, design: Sequence[float]):
-    """Absorber of the bogie with inertia, stiffness and damping; None where they are NaN."""
-    inertia, stiffness, damping = map(float, design)
-    if np.isnan(stiffness):
-        return None
-    own = line.bogie.absorber
-    return own.model_copy(update={"I_T": inertia, "c_T": stiffness, "d_T": damping})
 
 
 def _reached(known: _State, design, name: str, value: float, halvings: int = 4) -> _State:
@@ -134,50 +132,22 @@ def _changed(known: _State, design, track: Mapping[str, float]) -> _State:
     return _State(line, system, equilibrium(system, start))
 
 
-def _chosen(cfg: Mapping[str, Any]) -> list[int]:
-    return [WHEELS.index(name) for name in cfg["out_of_roundness"]["wheels"]]
-
-
-def _wear(cfg, state: _State, bogie: RoughBogie) -> evolution.WearSensitivity:
-    return evolution.wear_sensitivity(
-        bogie,
-        state.system.contacts.law,
-        wear_grid(cfg),
-        wear_chart(cfg),
-        cfg["out_of_roundness"]["wheels"],
-    )
-
-
-def _tendency(cfg, state: _State, bogie: RoughBogie, frequency: np.ndarray) -> np.ndarray:
-    response = evolution.linear_wear_response(
-        bogie,
-        _wear(cfg, state, bogie),
-        frequency,
-        state.line.track.speed,
-        state.line.bogie.wheel.radius,
-        cfg["out_of_roundness"]["wheels"],
-    )
-    return evolution.evolution_tendency(response[:, _chosen(cfg)].T)
-
-
 def _over_absorbers(cfg, known: _State, frequency: np.ndarray) -> dict[str, np.ndarray]:
     """Largest tendency in the band of design with an absorber over that without."""
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    bogie, wheels = rough_bogie(known.system, known.equilibrium), _chosen(cfg)
+    bogie, wheels = rough_bogie(known.system, known.equilibrium), worn_wheels(cfg)
     rows = evolution.wear_rows(
         bogie,
-        _wear(cfg, known, bogie),
+        wear_in_equilibrium(cfg, bogie, known.system.contacts.law),
         frequency,
         known.line.track.speed,
         known.line.bogie.wheel.radius,
         cfg["out_of_roundness"]["wheels"],
     )
-    output = np.zeros((frequency.size, len(wheels), LOCALS * len(WHEELS)), complex)
-    for place, wheel in enumerate(wheels):
-        output[:, place, LOCALS * wheel : LOCALS * (wheel + 1)] = rows.local[:, wheel]
-    absorber, direct = known.line.bogie.absorber, rows.direct[:, wheels]
+    output, direct = rows.output(wheels), rows.direct[:, wheels]
+    absorber = known.line.bogie.absorber
     turn = 2.0 * np.pi * frequency
     bare = attached_absorbers.receptances(
         known.system, known.equilibrium, bogie, absorber, turn, rows.source

@@ -13,10 +13,6 @@ from tramdva.contact import kalker
 from tramdva.contact.fastsim import PatchGrid
 from tramdva.wear import CHART, CONSTANT, WearChart
 
-INPUTS = (
-    "semi_axis_longitudinal", "semi_axis_lateral", "normal_force", "friction",
-    "longitudinal_creepage", "lateral_creepage", "spin_creepage",
-)  # fmt: skip
 _TINY = 1e-30
 
 
@@ -25,7 +21,7 @@ def worn_area(inputs, flexibility, grid: PatchGrid, rolling_speed: float, chart:
 
     Parameters
     ----------
-    inputs : (7,) as `INPUTS`, SI
+    inputs : (7,) as the fields of `wear_history.ContactHistory`, SI
     flexibility : (3,) in m/Pa, from `kalker.flexibilities`
     grid : PatchGrid
     rolling_speed : m/s
@@ -140,7 +136,7 @@ def worn_area_gradient(
     rolling_speed: float,
     chart: WearChart,
 ) -> tuple[float, np.ndarray]:
-    """Worn area in m^2 of a passage and its derivatives (7,) in `INPUTS`, SI.
+    """Worn area in m^2 of a passage and its derivatives (7,) in its inputs, SI.
 
     Kalker's flexibilities follow the semi-axes: their derivatives are central differences of the
     interpolated table.

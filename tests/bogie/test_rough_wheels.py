@@ -18,6 +18,7 @@ from tramdva.bogie.rough_wheels import (
 )
 from tramdva.bogie.vehicle import WHEELS
 from tramdva.contact import fastsim, patch
+from tramdva.out_of_roundness import Measurement, radius_deviation
 
 FRONT = ("front_outer", "front_inner")
 V, R0 = 4.0, 0.3
@@ -120,8 +121,6 @@ def test_response_is_linear_up_to_five_micrometres_beside_the_peaks(stored, tabl
 
 
 def test_shifting_the_waves_shifts_the_wear_and_leaves_the_response(stored, tables, rough):
-    from tramdva.out_of_roundness import Measurement, radius_deviation
-
     angle = 2.0 * np.pi * np.arange(1440) / 1440
     responses, phases = [], []
     for shift in (0.0, 1.3):
@@ -222,9 +221,7 @@ def attached(run, rough_, absorber_, inertia, c_T, d_T, frequency):
     bare = attached_absorbers.receptances(
         run.curve, run.equilibrium, rough_, absorber_, turn, rows.source
     )
-    output = np.zeros((frequency.size, 2, 40), complex)
-    for wheel in range(2):
-        output[:, wheel, 10 * wheel : 10 * wheel + 10] = rows.local[:, wheel]
+    output = rows.output([0, 1])
     return attached_absorbers.attach(bare, inertia, c_T, d_T, output) + rows.direct[:, :2]
 
 

@@ -25,7 +25,8 @@ class Receptances(NamedTuple):
     local_by_wave : (f, 40), local variables of the contacts by radius deviations
     place_by_wave : (f, p), motion of the places of the absorbers by the same
     local_by_force : (f, 40, p); place_by_force : (f, p, p), by forces at these places
-    masses : p - 4 of the places carry the absorber's mass only
+
+    The first four places are the absorbers'; others carry an absorber's mass only.
     """
 
     angular_frequency: np.ndarray

@@ -11,7 +11,7 @@ import numpy as np
 import scipy  # its parts load when they are used: many short jobs need none
 
 from tramdva.bogie import running, track
-from tramdva.bogie.vehicle import WHEELS, Vehicle, frame_loads
+from tramdva.bogie.vehicle import AXLES, SIDE, WHEELS, Vehicle, frame_loads
 from tramdva.contact import patch
 
 logger = logging.getLogger(__name__)
@@ -205,7 +205,7 @@ def wheel_loads(equilibrium_: Equilibrium) -> dict[str, float]:
     results = equilibrium_.results
     angle = results[..., patch.CONTACT_ANGLE]
     normal, lateral = results[..., patch.NORMAL_FORCE], results[..., patch.LATERAL_FORCE]
-    side = np.array([-1.0, 1.0, -1.0, 1.0])[:, None]
+    side = np.array(SIDE)[:, None]
     vertical = (normal * np.cos(angle) + side * lateral * np.sin(angle)).sum(axis=1)
     return dict(zip(WHEELS, map(float, vertical), strict=True))
 
@@ -213,9 +213,7 @@ def wheel_loads(equilibrium_: Equilibrium) -> dict[str, float]:
 def angle_of_attack(system: System, equilibrium_: Equilibrium) -> np.ndarray:
     """Yaw angle (2,) of front and rear axle against the track, rad; heading outwards positive."""
     k, motion = system.size, system.vehicle.motion_of
-    return np.array(
-        [-motion[f"{axle}_axle"][5, :k] @ equilibrium_.state[:k] for axle in ("front", "rear")]
-    )
+    return np.array([-motion[f"{axle}_axle"][5, :k] @ equilibrium_.state[:k] for axle in AXLES])
 
 
 def enter_curve(systems: list[System], start: np.ndarray, tolerance: float = 1e-9) -> Equilibrium:

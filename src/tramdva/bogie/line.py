@@ -67,6 +67,12 @@ def bogie_line(cfg: Mapping[str, Any], tables: Mapping[str, np.ndarray]) -> Bogi
     )
 
 
+def quiet_bogie_line(cfg: Mapping[str, Any], tables: Mapping[str, np.ndarray]) -> BogieLine:
+    """Bogie of a line with the friction of ``forced_excitation``: without self-excitation."""
+    force = cfg["creep_force"] | cfg["forced_excitation"]
+    return bogie_line({**cfg, "creep_force": force}, tables)
+
+
 def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
     """Absorber of the line with a stiffness and damping; None where these are NaN."""
     if np.isnan(c_T):
@@ -86,7 +92,13 @@ def contacts_of(line: BogieLine) -> running.Contacts:
     law = patch.contact_law(
         *line.friction, material.youngs_modulus, material.poisson_ratio, *line.grid
     )
-    places = running.wheel_places(line.bogie, line.contact_geometry, line.track.speed)
+    places = running.wheel_places(
+        line.bogie.wheel.half_distance,
+        line.contact_geometry.wheel.tape_circle_offset,
+        line.contact_geometry.rail.lateral_position,
+        line.track.speed,
+        line.bogie.wheel.radius,
+    )
     return running.Contacts(line.tables, law, places)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from tramdva.bogie import running
 from tramdva.bogie.integration import ModalContacts
 from tramdva.bogie.rough_wheels import RoughBogie
-from tramdva.bogie.vehicle import AXLE_OF_WHEEL, SIDE, WHEELS
+from tramdva.bogie.vehicle import WHEELS
 from tramdva.contact import fastsim, patch
 from tramdva.contact.geometry import ContactTable
 
@@ -78,25 +78,18 @@ def stored_bogie(values: Mapping[str, np.ndarray]) -> StoredBogie:
     sensitivity = running.RadiusSensitivity(
         values["contact_per_local"], values["contact_per_deviation"], values["force_per_deviation"]
     )
-    speed, radius = float(values["speed"]), float(values["wheel_radius"])
-    places = running.WheelPlaces(
-        np.array(SIDE),
-        np.array(AXLE_OF_WHEEL) + 1,
-        values["lateral_position"],
-        float(values["tape_circle"]),
-        float(values["rail"]),
-        speed,
-        speed / radius,
+    radius = float(values["wheel_radius"])
+    places = running.wheel_places(
+        float(abs(values["lateral_position"][0])),
+        *(float(values[name]) for name in ("tape_circle", "rail", "speed")),
+        radius,
     )
-    law = patch.ContactLaw(
+    law = patch.law_of_tables(
         values["hertz_table"],
         values["kalker_table"],
         float(values["modulus"]),
         float(values["shear_modulus"]),
         tuple(map(float, values["friction"])),
-        (1.0, 1.0),
-        0.0,
-        patch.FASTSIM,
         fastsim.patch_grid(*map(int, values["patch_cells"])),
     )
     bogie = RoughBogie(

@@ -45,17 +45,19 @@ class Contacts(NamedTuple):
     places: WheelPlaces
 
 
-def wheel_places(bogie, contact_geometry, speed: float) -> WheelPlaces:
-    """Places of the wheels of a bogie."""
+def wheel_places(
+    half_distance: float, tape_circle: float, rail: float, speed: float, wheel_radius: float
+) -> WheelPlaces:
+    """Places of the wheels of a bogie, lengths in m, speed in m/s; see `WheelPlaces`."""
     side = np.array(SIDE)
     return WheelPlaces(
         side,
         np.array(AXLE_OF_WHEEL) + 1,
-        side * bogie.wheel.half_distance,
-        contact_geometry.wheel.tape_circle_offset,
-        contact_geometry.rail.lateral_position,
+        side * half_distance,
+        tape_circle,
+        rail,
         speed,
-        speed / bogie.wheel.radius,
+        speed / wheel_radius,
     )
 
 
@@ -201,28 +203,64 @@ def all_wheel_forces(
         )
 
 
-# Steps of the central differences: well below the scales of contact, above rounding.
-_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6])
+# Steps of the central differences in the local variables, then in radius deviation (m) and its
+# rate (m/s): well below the scales of contact, above rounding.
+_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6, 1e-8, 1e-6])
+
+
+class RadiusSensitivity(NamedTuple):
+    """Derivatives of contact results and wheel forces in the small.
+
+    local : (4, zones, RESULTS, 10), results in the local variables of their wheel
+    deviation : (4, zones, RESULTS, 2), in the zone's radius deviation (m) and its rate (m/s)
+    force : (4, zones, 6, 2), forces on the wheel in a zone's radius deviation and its rate
+    """
+
+    local: np.ndarray
+    deviation: np.ndarray
+    force: np.ndarray
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _difference(contacts, curvatures, local, steps, scratch, results, jacobian):
-    """Fill jacobian (4, 6, 10) by central differences with `steps` (10,)."""
-    shifted, force = np.empty(LOCALS), np.empty(WHEEL_FORCES)
-    zero = np.zeros(len(contacts.tables))
-    jacobian[:] = 0.0
+def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, jacobian, out):
+    """Fill `jacobian` (4, 6, 10) and the arrays `out` of a `RadiusSensitivity` by differences.
+
+    These are central, with `steps` (12,). The first ten of the `cases` change a local variable,
+    the others radius deviation and rate, zone by zone.
+    """
+    by_local, by_deviation, by_force = out
+    zones = len(contacts.tables)
+    shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
-        for k in range(LOCALS):
+        for case in range(cases):
+            k = case if case < LOCALS else LOCALS + (case - LOCALS) // zones
+            zone = (case - LOCALS) % zones
             for sign in (1.0, -1.0):
                 for j in range(LOCALS):
                     shifted[j] = local[LOCALS * wheel + j]
-                shifted[k] += sign * steps[k]
+                for j in range(zones):
+                    radius[0, j] = radius[1, j] = 0.0
+                if k < LOCALS:
+                    shifted[k] += sign * steps[k]
+                else:
+                    radius[k - LOCALS, zone] = sign * steps[k]
                 wheel_forces(
-                    contacts, wheel, curvature, shifted, zero, zero, scratch, results[0], force
-                )
+                    contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
+                    results[0], force,
+                )  # fmt: skip
+                scale = sign / (2.0 * steps[k])
                 for i in range(WHEEL_FORCES):
-                    jacobian[wheel, i, k] += sign * force[i] / (2.0 * steps[k])
+                    if k < LOCALS:
+                        jacobian[wheel, i, k] += scale * force[i]
+                    else:
+                        by_force[wheel, zone, i, k - LOCALS] += scale * force[i]
+                for c in range(patch.RESULTS):
+                    if k < LOCALS:
+                        for j in range(zones):
+                            by_local[wheel, j, c, k] += scale * results[0, j, c]
+                    else:
+                        by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
 
 
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
@@ -241,13 +279,29 @@ def contact_forces(
     return force, results
 
 
+def _derivatives(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float, deviations: bool
+) -> tuple[np.ndarray, RadiusSensitivity]:
+    """Blocks (4, 6, 10) of the Jacobian, and the sensitivity; in radius deviations if wanted."""
+    scratch, results = workspace(contacts)
+    zones = len(contacts.tables)
+    blocks = np.zeros((4, WHEEL_FORCES, LOCALS))
+    out = RadiusSensitivity(
+        np.zeros((4, zones, patch.RESULTS, LOCALS)),
+        np.zeros((4, zones, patch.RESULTS, 2)),
+        np.zeros((4, zones, WHEEL_FORCES, 2)),
+    )
+    cases = LOCALS + 2 * zones if deviations else LOCALS
+    steps = scale * _STEPS
+    _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, blocks, tuple(out))
+    return blocks, out
+
+
 def contact_jacobian(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
 ) -> np.ndarray:
     """Derivatives (24, 40) of the forces in the local variables; `scale` of the steps."""
-    scratch, results = workspace(contacts)
-    blocks = np.empty((4, WHEEL_FORCES, LOCALS))
-    _difference(contacts, curvatures, local, scale * _STEPS, scratch, results, blocks)
+    blocks, _ = _derivatives(contacts, curvatures, local, scale, deviations=False)
     jacobian = np.zeros((4 * WHEEL_FORCES, 4 * LOCALS))
     for wheel, block in enumerate(blocks):
         rows = slice(WHEEL_FORCES * wheel, WHEEL_FORCES * (wheel + 1))
@@ -255,73 +309,8 @@ def contact_jacobian(
     return jacobian
 
 
-# Steps of the radius deviation (m) and its rate (m/s).
-_DEVIATION_STEPS = (1e-8, 1e-6)
-
-
-class RadiusSensitivity(NamedTuple):
-    """Derivatives of contact results and wheel forces in the small.
-
-    local : (4, zones, RESULTS, 10), results in the local variables of their wheel
-    deviation : (4, zones, RESULTS, 2), in the zone's radius deviation (m) and its rate (m/s)
-    force : (4, zones, 6, 2), forces on the wheel in a zone's radius deviation and its rate
-    """
-
-    local: np.ndarray
-    deviation: np.ndarray
-    force: np.ndarray
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _sensitivity(contacts, curvatures, local, steps, scratch, results, out):
-    """Fill the arrays `out` of a `RadiusSensitivity` by central differences with `steps` (12,).
-
-    Variable k of 0 to 9 is local, 10 and 11 are radius deviation and rate, zone by zone.
-    """
-    by_local, by_deviation, by_force = out
-    zones = len(contacts.tables)
-    shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
-    for wheel in range(4):
-        curvature = curvatures[contacts.places.axle[wheel]]
-        for case in range(LOCALS + 2 * zones):
-            k = case if case < LOCALS else LOCALS + (case - LOCALS) // zones
-            zone = (case - LOCALS) % zones
-            for sign in (1.0, -1.0):
-                for j in range(LOCALS):
-                    shifted[j] = local[LOCALS * wheel + j]
-                for j in range(zones):
-                    radius[0, j] = radius[1, j] = 0.0
-                if k < LOCALS:
-                    shifted[k] += sign * steps[k]
-                else:
-                    radius[k - LOCALS, zone] = sign * steps[k]
-                wheel_forces(
-                    contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
-                    results[0], force,
-                )  # fmt: skip
-                scale = sign / (2.0 * steps[k])
-                for c in range(patch.RESULTS):
-                    if k < LOCALS:
-                        for j in range(zones):
-                            by_local[wheel, j, c, k] += scale * results[0, j, c]
-                    else:
-                        by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
-                if k >= LOCALS:
-                    for i in range(WHEEL_FORCES):
-                        by_force[wheel, zone, i, k - LOCALS] += scale * force[i]
-
-
 def radius_sensitivity(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
 ) -> RadiusSensitivity:
     """Sensitivity of the contacts at local variables (40,); `scale` of the steps."""
-    scratch, results = workspace(contacts)
-    zones = len(contacts.tables)
-    out = RadiusSensitivity(
-        np.zeros((4, zones, patch.RESULTS, LOCALS)),
-        np.zeros((4, zones, patch.RESULTS, 2)),
-        np.zeros((4, zones, WHEEL_FORCES, 2)),
-    )
-    steps = scale * np.append(_STEPS, _DEVIATION_STEPS)
-    _sensitivity(contacts, curvatures, local, steps, scratch, results, tuple(out))
-    return out
+    return _derivatives(contacts, curvatures, local, scale, deviations=True)[1]

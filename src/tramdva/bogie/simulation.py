@@ -7,12 +7,13 @@ import numpy as np
 
 from tramdva.bogie import integration, running
 from tramdva.bogie.rough_wheels import RoughBogie, excitation
+from tramdva.bogie.vehicle import LOCAL
 
 logger = logging.getLogger(__name__)
 
 STATUS = ("periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite")
 # Velocities among the local variables: they weigh all frequencies alike, positions do not.
-_RATES = np.tile(np.arange(running.LOCALS) >= running.LOCALS // 2 - 1, 4)
+_RATES = np.tile(np.arange(running.LOCALS) >= LOCAL.index("vx"), 4)
 
 
 class Settings(NamedTuple):
@@ -94,8 +95,7 @@ def simulate_wave(
         logger.info("revolution %d: %.1e from its limit", number + 1, remaining)
         if number + 1 > settings.kept and remaining < settings.tolerance:
             break
-    lost = one.contact_lost
-    status = "contact_lost" if lost else "periodic"
+    status = "contact_lost" if one.contact_lost else "periodic"
     if remaining >= settings.tolerance:
         status = "not_periodic"
     return WaveRun(

@@ -14,6 +14,7 @@ from tramdva.bogie.line import (
     absorber,
     bogie_line,
     changed,
+    quiet_bogie_line,
     run_through,
     track_line,
 )
@@ -292,11 +293,10 @@ def bogie_linearisation(
     -------
     Variables of ``bogie_linearisation``.
     """
-    force = cfg["creep_force"] | cfg["forced_excitation"]
     bogie = dict(cfg["bogie"])
     if tuned is not None:
         bogie["absorber"] = bogie["absorber"] | {"c_T": tuned[0], "d_T": tuned[1]}
-    line = bogie_line({**cfg, "bogie": bogie, "creep_force": force}, contact_geometry)
+    line = quiet_bogie_line({**cfg, "bogie": bogie}, contact_geometry)
     run = run_through(line, cfg["numerics"]["curvature_steps"])
     design = getattr(line.bogie, "absorber", None)
     if design is not None:

@@ -77,17 +77,35 @@ def contact_law(
     """
     if method not in METHODS:
         raise ValueError(f"creep force method '{method}' is unknown; allowed: {list(METHODS)}")
-    return ContactLaw(
+    return law_of_tables(
         hertz.hertz_table(),
         kalker.kalker_table(poisson_ratio),
         hertz.effective_modulus(youngs_modulus, poisson_ratio),
         0.5 * youngs_modulus / (1.0 + poisson_ratio),
         (float(friction_maximum), float(friction_ratio), float(friction_decrease)),
+        fastsim.patch_grid(cells_along, strips, bound),
         (float(reduction_adhesion), float(reduction_slip)),
         float(damping_time),
         METHODS[method],
-        fastsim.patch_grid(cells_along, strips, bound),
     )
+
+
+def law_of_tables(
+    hertz_table: np.ndarray,
+    kalker_table: np.ndarray,
+    modulus: float,
+    shear_modulus: float,
+    friction: tuple[float, float, float],
+    grid: fastsim.PatchGrid,
+    polach: tuple[float, float] = (1.0, 1.0),
+    damping_time: float = 0.0,
+    method: int = FASTSIM,
+) -> ContactLaw:
+    """Constants of the contacts from tables that are there already; fields as in `ContactLaw`."""
+    return ContactLaw(
+        hertz_table, kalker_table, modulus, shear_modulus, friction, polach, damping_time, method,
+        grid,
+    )  # fmt: skip
 
 
 def contact_workspace(law: ContactLaw) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
