@@ -41,6 +41,8 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     """Draw the largest growth rate of each absorber over the friction decrease."""
     sought = modes["frequency"] > SOUGHT
     growth = np.where(sought, modes["growth_rate"], -np.inf).max(axis=2)
+    if not sought.any():
+        figures.note(axes, "no equilibrium in the curve")
     for row, name in enumerate(modes["absorber"]):
         words = figures.absorber_name(str(name))
         critical = modes["critical_friction_decrease"][row]
@@ -63,11 +65,14 @@ def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
     """Draw the growth rate over stiffness and damping of the absorber; stable is grey."""
     stiffness, growth = modes["map_c_T"] / 1e5, modes["map_growth_rate"]
     levels = np.arange(-18.0, 1.1, 1.0)
-    image = axes.contourf(
-        stiffness, modes["map_d_T"], growth, levels, cmap=figures.SPREAD, extend="both"
-    )
-    figure.colorbar(image, ax=axes, label="growth rate (1/s)")
-    axes.contour(stiffness, modes["map_d_T"], growth, [0.0], colors=figures.ONSET)
+    if np.isnan(growth).all():
+        figures.note(axes, "no equilibrium in the curve")
+    else:
+        image = axes.contourf(
+            stiffness, modes["map_d_T"], growth, levels, cmap=figures.SPREAD, extend="both"
+        )
+        figure.colorbar(image, ax=axes, label="growth rate (1/s)")
+        axes.contour(stiffness, modes["map_d_T"], growth, [0.0], colors=figures.ONSET)
     for row, marker in ((1, "s"), (2, "o")):
         axes.plot(
             modes["c_T"][row] / 1e5, modes["d_T"][row], marker, markerfacecolor="white",

@@ -323,6 +323,8 @@ def _explained(stage: str, name: str, values: Mapping[str, np.ndarray]) -> np.nd
         explained[:, 4:] = (values["absorber"] == "none")[:, None]
     if dimensions == APART:
         explained |= np.isnan(values["normal_force"])
+    if name == "map_growth_rate":
+        explained |= str(values["map_status"]) not in GOOD
     for other, variable in variables.items():
         along = len(variable.dimensions)
         if along and variable.kind != "real" and variable.dimensions == dimensions[:along]:
@@ -340,7 +342,7 @@ def _reason(name: str, other: str, flags: np.ndarray) -> np.ndarray:
         return flags == "no_equilibrium"
     if other in ("absorber", "design") and name in ABSENT_WITHOUT_ABSORBER:
         return flags == "none"
-    if other == "mode_name":
+    if other.endswith("mode_name"):
         return flags == ""
     if other == "shape_mode":  # a mode that is not there keeps its bare word as name
         return np.isin(flags, SHAPES)

@@ -27,6 +27,8 @@ TARGETS = [
             "cycle_amplitudes",
             "frequency_response",
             "contact_geometry",
+            "bogie_linearisation/none",
+            *(f"wear/none/order_{order}" for order in (6, 26, 46)),
         )
     ),
     "paper_figures/{line}/fig07_frequency_response.pdf",
@@ -41,7 +43,10 @@ numerics:
   hopf_curves: {max_points: 100}
   critical_hopf_curve: {max_points: 100, check_points: 60}
   frequency_response: {points: 300}
-  contact_geometry: {shift_step: 2.0e-4, yaw_nodes: 4}
+  contact_geometry: {shift_step: 1.0e-4, yaw_nodes: 8}
+  bogie: {cells_along: 6, strips: 6}
+  bogie_simulation: {samples: 128, revolutions: 1}
+  wear: {wear_cells_along: 8, wear_strips: 8}
 """
 # Another state of the same folder: whatever of it survives a kill must not stay in the results.
 OTHER = "numerics: {stability_map: {points: 51}, critical_hopf_curve: {check_points: 50}}\n"

@@ -74,6 +74,7 @@ STAGES: dict[str, Stage] = {
             "map_growth_rate": real(
                 "map_d_T map_c_T", "1/s", "largest growth rate at the line's B"
             ),
+            "map_status": flag("", CURVING_STATUS, "how the equilibrium behind the map ended"),
             "shape_mode": text("shape_mode", "mode of the front axle without absorber"),
             "shape_frequency": real("shape_mode", "Hz", "frequency"),
             "shape_damping_ratio": real("shape_mode", "1", "damping ratio"),

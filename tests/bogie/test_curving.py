@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from figure_scripts import script, texts
+from strange_trams import unexplained
 
-from tramdva.bogie import modes, track
+from tramdva import config
+from tramdva.bogie import modes, stages, track
 from tramdva.bogie import running as contact
 from tramdva.bogie.curving import angle_of_attack, linearise, wheel_loads
 from tramdva.bogie.line import absorber, changed, run_through
@@ -201,3 +204,38 @@ def test_attitude_in_the_curve_is_that_of_the_paper(running):
     touching = running.equilibrium.results[0, :, patch.STATUS] == patch.CONTACT
     assert touching.sum() == 1  # the flange root alone
     assert 0.6 < angle[touching][0] < 0.8
+
+
+def test_without_equilibrium_there_are_no_modes(configuration, tables, monkeypatch):
+    """Numbers of a state that is no equilibrium would look like any others."""
+    cfg = config.stage(configuration, "paper", "bogie_modes")
+    cfg["numerics"] |= {"friction_points": 2, "map_points": 2}
+    designs = {
+        "absorber": np.array(["none", "paper", "tuned"]),
+        "m_T": np.array([np.nan, 2.0, 2.0]),
+        "c_T": np.array([np.nan, 1.74e5, 1.8e5]),
+        "d_T": np.array([np.nan, 300.0, 200.0]),
+        "status": np.array(["not_converged", "converged", "not_converged"]),
+    }
+
+    def lost(line, design, known):
+        run = changed(line, design, known)
+        status = "not_converged" if design is None or design.c_T != 1.74e5 else "converged"
+        return run._replace(
+            equilibrium=run.equilibrium._replace(status=status),
+            straight_equilibrium=run.straight_equilibrium._replace(status=status),
+        )
+
+    monkeypatch.setattr(stages, "changed", lost)
+    values = stages.bogie_modes(cfg, tables, designs)
+    found = np.isfinite(values["frequency"]).any(axis=(1, 2))
+    np.testing.assert_array_equal(found, [False, True, False])
+    for name in ("operating_growth_rate", "operating_frequency"):
+        np.testing.assert_array_equal(np.isfinite(values[name]), [False, True, False])
+    for name in ("map_growth_rate", "shape_frequency", "straight_frequency"):
+        assert np.isnan(values[name]).all()
+    assert values["map_status"] == "not_converged"
+    assert unexplained("bogie_modes", values) == []
+    drawn = script("bogie_stability").draw(values, 0.7)
+    assert texts(drawn).count("no equilibrium in the curve") == 1
+    assert texts(script("bogie_mode_shapes").draw(values, 0.3)).count("no such mode") == 4

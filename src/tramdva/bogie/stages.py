@@ -129,30 +129,31 @@ def bogie_modes(
 
     Returns
     -------
-    Variables of ``bogie_modes.nc``.
+    Variables of ``bogie_modes.nc``; NaN where there is no equilibrium to linearise about.
     """
     line = bogie_line(cfg, contact_geometry)
     runs = _known_runs(cfg, line, curving_equilibrium)
     limits, shown = _limits(cfg), (1.0, cfg["study"]["frequency"]["max"])
     decrease = np.linspace(0.0, cfg["study"]["B_max"], cfg["numerics"]["friction_points"])
-    table, critical = {}, []
+    table = {}
+    critical, operating = np.full(len(runs), np.nan), np.full((len(runs), 2), np.nan)
     for i, run in enumerate(runs):
+        if run.equilibrium.status != "converged":
+            continue
         system, state = run.curve, run.equilibrium.state
+        operating[i] = modal.critical_oscillation(system, state, limits)
         sweep = [modal.at_friction(system, state, B) for B in decrease]
         table |= {(i, j): modal.modes_of(system, step, shown) for j, step in enumerate(sweep)}
         growth = np.array([modal.critical_of(step, limits).growth_rate for step in sweep])
-        critical.append(modal.critical_friction_decrease(system, state, limits, decrease, growth))
-    operating = [
-        modal.critical_oscillation(run.curve, run.equilibrium.state, limits) for run in runs
-    ]
+        critical[i] = modal.critical_friction_decrease(system, state, limits, decrease, growth)
     return {
         **{name: curving_equilibrium[name] for name in ("absorber", "m_T", "c_T", "d_T")},
         "status": curving_equilibrium["status"],
         "friction_decrease": decrease,
         **_mode_table(table, len(runs), len(decrease)),
-        "operating_growth_rate": np.array([c.growth_rate for c in operating]),
-        "operating_frequency": np.array([c.frequency for c in operating]),
-        "critical_friction_decrease": np.array(critical),
+        "operating_growth_rate": operating[:, 0],
+        "operating_frequency": operating[:, 1],
+        "critical_friction_decrease": critical,
         **_absorber_map(cfg, line, runs[0], limits),
         **_shapes(runs[0], shown),
         **_straight(runs[0], shown),
@@ -161,7 +162,7 @@ def bogie_modes(
 
 def _mode_table(table: Mapping[tuple[int, int], Modes], designs: int, points: int) -> dict:
     """Modes of all designs and friction decreases, NaN and empty names beyond the last."""
-    count = max(entry.eigenvalue.size for entry in table.values())
+    count = max((entry.eigenvalue.size for entry in table.values()), default=1)
     numbers = {
         name: np.full((designs, points, count), np.nan)
         for name in ("frequency", "damping_ratio", "growth_rate")
@@ -180,11 +181,18 @@ def _absorber_map(cfg, line: BogieLine, none: Running, limits) -> dict[str, np.n
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    family = modal.absorber_family(line, none)
-    growth = [
-        [modal.critical_of(family.member(c, d)[1], limits).growth_rate for c in c_T] for d in d_T
-    ]
-    return {"map_d_T": d_T, "map_c_T": c_T, "map_growth_rate": np.array(growth)}
+    growth = np.full((points, points), np.nan)
+    if none.equilibrium.status == "converged":
+        family = modal.absorber_family(line, none)
+        for i, j in np.ndindex(points, points):
+            linear = family.member(c_T[j], d_T[i])[1]
+            growth[i, j] = modal.critical_of(linear, limits).growth_rate
+    return {
+        "map_d_T": d_T,
+        "map_c_T": c_T,
+        "map_growth_rate": growth,
+        "map_status": np.array(none.equilibrium.status),
+    }
 
 
 def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
@@ -192,14 +200,16 @@ def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
 
     A mode that is not there keeps its word as name, and NaN.
     """
-    found = modal.modes(none.curve, none.equilibrium.state, shown)
+    found = None
+    if none.equilibrium.status == "converged":
+        found = modal.modes(none.curve, none.equilibrium.state, shown)
     positions, motion = modal.axle_points(none.curve, "front")
     k, count = none.curve.size, len(SHAPES)
     names, numbers = list(SHAPES), np.full((2, count), np.nan)
     shape = np.full((count, *motion.shape[:2]), np.nan, dtype=complex)
     energy = np.full((count, len(ENERGY_CLASSES)), np.nan)
     for row, word in enumerate(SHAPES):
-        mode = modal.of_front_axle(found, word)
+        mode = None if found is None else modal.of_front_axle(found, word)
         if mode is None:
             continue
         moved = motion[..., :k] @ found.shape[:, mode]
@@ -220,11 +230,14 @@ def _shapes(none: Running, shown) -> dict[str, np.ndarray]:
 
 
 def _straight(none: Running, shown) -> dict[str, np.ndarray]:
-    found = modal.modes(none.straight, none.straight_equilibrium.state, shown)
+    names, numbers = [""], np.full((2, 1), np.nan)
+    if none.straight_equilibrium.status == "converged":
+        found = modal.modes(none.straight, none.straight_equilibrium.state, shown)
+        names, numbers = found.name, np.array([found.frequency, found.damping_ratio])
     return {
-        "straight_frequency": found.frequency,
-        "straight_damping_ratio": found.damping_ratio,
-        "straight_mode_name": np.array(found.name),
+        "straight_frequency": numbers[0],
+        "straight_damping_ratio": numbers[1],
+        "straight_mode_name": np.array(names),
     }
 
 
