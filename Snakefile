@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tramdva import inventory, job, supervision
 from tramdva.config import load_or_exit, stage
-from tramdva.provenance import code_hash, use_numba_cache
+from tramdva.provenance import code_hash, compile_kernels_once, use_numba_cache
 
 ROOT = Path(workflow.current_basedir)
 SCRIPTS = ROOT / "workflow/scripts"
@@ -48,6 +48,7 @@ wildcard_constraints:
 
 onstart:
     supervision.begin_run("results", "paper_figures", "logs")
+    compile_kernels_once()
     print(
         f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
     )

@@ -133,8 +133,8 @@ def set_up() -> None:
 def compile_kernels() -> None:
     """Compile now what the first run would have to; a failure costs time later, nothing else."""
     program = (
-        "from tramdva.provenance import use_numba_cache; use_numba_cache();"
-        "from tramdva.warm_up import compile_kernels; compile_kernels()"
+        "from tramdva.provenance import compile_kernels_once, use_numba_cache;"
+        "use_numba_cache(); compile_kernels_once()"
     )
     subprocess.run([BIN / "python", "-c", program], capture_output=True, check=False)
 

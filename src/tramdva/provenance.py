@@ -7,8 +7,11 @@ import functools
 import hashlib
 import os
 import re
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 PACKAGE = Path(__file__).parent
@@ -62,6 +65,22 @@ def use_numba_cache(package: Path = PACKAGE) -> Path:
     folder = _numba_cache_folder(package)
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
     return folder
+
+
+def compile_kernels_once() -> None:
+    """Compile all kernels where the folder of `use_numba_cache` does not hold them yet.
+
+    A kernel that was just compiled and the same kernel out of the cache can differ in the last
+    bit: each is optimised with other functions in sight. So all jobs take theirs from the cache.
+    """
+    done = Path(os.environ["NUMBA_CACHE_DIR"]) / "complete"
+    if done.is_file():
+        return
+    print("tramdva: compiling, once for this version of the code (a minute)", flush=True)
+    program = "from tramdva.warm_up import compile_kernels; compile_kernels()"
+    if subprocess.run([sys.executable, "-c", program], check=False).returncode == 0:
+        with suppress(OSError):
+            done.touch()
 
 
 def _numba_cache_folder(package: Path) -> Path:
