@@ -67,13 +67,16 @@ def use_numba_cache(package: Path = PACKAGE) -> Path:
     return folder
 
 
-def compile_kernels_once() -> None:
+def compile_kernels_once(package: Path = PACKAGE) -> None:
     """Compile all kernels where the folder of `use_numba_cache` does not hold them yet.
 
     A kernel that was just compiled and the same kernel out of the cache can differ in the last
     bit: each is optimised with other functions in sight. So all jobs take theirs from the cache.
     """
-    done = Path(os.environ["NUMBA_CACHE_DIR"]) / "complete"
+    # Numba keeps what it compiled by the place and the date of the sources.
+    places = "".join(f"{path} {path.stat().st_mtime_ns};" for path in _compiled_files(package))
+    name = f"complete-{hashlib.sha256(places.encode()).hexdigest()[:20]}"
+    done = Path(os.environ["NUMBA_CACHE_DIR"]) / name
     if done.is_file():
         return
     print("tramdva: compiling, once for this version of the code (a minute)", flush=True)
@@ -100,13 +103,18 @@ def _numba_cache_folder(package: Path) -> Path:
 
 def _compiled_code_hash(package: Path) -> str:
     """Hash the modules that compile functions and everything that they import."""
-    files = {path for path in package.rglob("*.py") if COMPILED.search(path.read_bytes())}
+    files = set(_compiled_files(package))
     for path in tuple(files):
         files |= {_file(name, package) for name in reached_modules(path, package)}
     digest = hashlib.sha256()
     for path in sorted(files):
         digest.update(str(path.relative_to(package)).encode() + _tree_hash(path))
     return digest.hexdigest()[:20]
+
+
+def _compiled_files(package: Path) -> list[Path]:
+    """Name the modules that compile functions."""
+    return [path for path in sorted(package.rglob("*.py")) if COMPILED.search(path.read_bytes())]
 
 
 def _cache_roots() -> Iterator[Path]:
