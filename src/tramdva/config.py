@@ -158,12 +158,16 @@ STAGES: dict[str, tuple[str, ...]] = {
     "fig08_bogie": (*_FIGURE, "bogie"),
     "fig09_curve_entry": (*_FIGURE, "study.curve_entry.entry"),
     "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
-    "bogie_stability": (*_FIGURE, "creep_force.B"),
+    "bogie_stability": (*_FIGURE, "creep_force.B", "bogie.absorber.motion"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
     "fig10_evolution_tendency": _FIGURE,
     "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
     "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
-    "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
+    "tendency_design_chart": (
+        *_FIGURE,
+        "study.tendency_maps.design_band",
+        "bogie.absorber.motion",
+    ),
 }
 
 
