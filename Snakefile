@@ -3,7 +3,7 @@
 from functools import partial
 from pathlib import Path
 
-from tramdva import inventory, job, supervision
+from tramdva import inventory, job, measured_files, supervision
 from tramdva.config import load_or_exit, stage
 from tramdva.provenance import code_hash, compile_kernels_once, use_numba_cache
 
@@ -25,16 +25,19 @@ ABSORBERS = {
     name: line.study.evolution_tendency.absorbers
     for name, line in configuration.lines.items()
 }
-MEASURED = {
-    name: line.out_of_roundness.measured
-    for name, line in configuration.lines.items()
-    if line.out_of_roundness.measured
-}
 values = partial(stage, configuration)
 use_numba_cache()
+if workflow.is_main_process:
+    measured_files.check_or_exit(configuration.measured)
 if supervision.enter_folder(as_job=not workflow.is_main_process):
     inventory.take_back_dates("results", "paper_figures", "logs")
     inventory.set_aside_unusable(configuration, SCRIPTS)
+
+
+def measured(line, what):
+    """Path of a line's measured file; no input where it has none."""
+    files = configuration.measured[line]
+    return files[what].path if what in files else []
 
 
 report: "workflow/report/workflow.rst"
@@ -270,6 +273,9 @@ rule frequency_response:
 
 
 rule contact_geometry:
+    input:
+        measured_wheel=lambda w: measured(w.line, "wheel"),
+        measured_rail=lambda w: measured(w.line, "rail"),
     output:
         "results/{line}/contact_geometry.nc",
     log:
@@ -372,7 +378,7 @@ rule bogie_simulation:
     input:
         contact_geometry=rules.contact_geometry.output[0],
         bogie_linearisation=rules.bogie_linearisation.output[0],
-        measured=lambda w: MEASURED.get(w.line, []),
+        measured=lambda w: measured(w.line, "out_of_roundness"),
     output:
         PER_ORDER[0],
     log:

@@ -304,6 +304,7 @@ def draw_measured(path, kind, noise, picture):
     )
     y = points[inside, 0]
     off = (points[inside, 1] - profile.depth_at(y * 1e-3) * 1e3) * 1e3
+    off -= np.median(off)  # the file's z is zero somewhere else
     off /= np.hypot(1.0, profile.slope_at(y * 1e-3))
     axes[1].plot(y, off, "o", ms=1.8, color=AMBER)
     axes[1].axhline(0.0, color="black", lw=0.8)

@@ -20,16 +20,17 @@ SOUGHT = 30.0  # Hz, oscillations above this count; as in the map
 def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
     """Draw the figure from the modes of the bogie."""
     with figures.style(STYLE):
-        figure = draw(results.read(bogie_modes), cfg["creep_force"]["B"])
+        motion = cfg["bogie"]["absorber"]["motion"]
+        figure = draw(results.read(bogie_modes), cfg["creep_force"]["B"], motion)
         figures.save(figure, pdf, png, f"Stability of the bogie: {cfg['label']}")
 
 
-def draw(modes: dict[str, np.ndarray], operating_B: float) -> Figure:
+def draw(modes: dict[str, np.ndarray], operating_B: float, motion: str = "rotation") -> Figure:
     """Draw growth rate over B, and growth rate over stiffness and damping of the absorber."""
     figure = figures.canvas(figures.DOUBLE_COLUMN, 92)
     left, right = figure.subplots(1, 2)
     draw_growth(left, modes, operating_B)
-    draw_map(figure, right, modes)
+    draw_map(figure, right, modes, motion)
     for axes, name in ((left, "a"), (right, "b")):
         figures.letter(axes, name)
     entries = [*left.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
@@ -44,7 +45,7 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     if not sought.any():
         figures.note(axes, "no equilibrium in the curve")
     for row, name in enumerate(modes["absorber"]):
-        words = figures.absorber_name(str(name))
+        words = figures.design_name(str(name))
         critical = modes["critical_friction_decrease"][row]
         if np.isfinite(critical):
             words += f": unstable from {critical:.2f} s/m"
@@ -61,9 +62,10 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     )  # fmt: skip
 
 
-def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
+def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray], motion: str) -> None:
     """Draw the growth rate over stiffness and damping of the absorber; stable is grey."""
-    stiffness, growth = modes["map_c_T"] / 1e5, modes["map_growth_rate"]
+    unit, stiffness_label, damping_label = figures.ABSORBER_AXES[motion]
+    stiffness, growth = modes["map_c_T"] / unit, modes["map_growth_rate"]
     levels = np.arange(-18.0, 1.1, 1.0)
     if np.isnan(growth).all():
         figures.note(axes, "no equilibrium in the curve")
@@ -75,10 +77,10 @@ def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray]) -> None:
         axes.contour(stiffness, modes["map_d_T"], growth, [0.0], colors=figures.ONSET)
     for row, marker in ((1, "s"), (2, "o")):
         axes.plot(
-            modes["c_T"][row] / 1e5, modes["d_T"][row], marker, markerfacecolor="white",
-            markeredgecolor="black", label=figures.absorber_name(str(modes["absorber"][row])),
+            modes["c_T"][row] / unit, modes["d_T"][row], marker, markerfacecolor="white",
+            markeredgecolor="black", label=figures.design_name(str(modes["absorber"][row])),
         )  # fmt: skip
-    axes.set(xlabel="stiffness (10⁵ N m/rad)", ylabel="damping (N m s/rad)")
+    axes.set(xlabel=stiffness_label, ylabel=damping_label)
 
 
 if __name__ == "__main__":

@@ -131,7 +131,7 @@ def behind(axes: Axes, bogie: dict) -> None:
     place = absorber["lateral_position"]
     dimension(axes, (-place, -0.08), (place, -0.08), "absorbers")
     axes.plot([-half, half], [radius, radius], color="0.4", linewidth=0.5, linestyle="-.")
-    dimension(axes, (-0.25, bottom), (-0.25, radius), "drop", 0.04)
+    dimension(axes, (-0.28, bottom), (-0.28, radius), "drop", 0.02)
 
 
 def side(axes: Axes, bogie: dict) -> None:

@@ -51,7 +51,7 @@ def draw(ride: dict[str, np.ndarray], modes: dict[str, np.ndarray], entry: float
     draw_detail(detail, ride, velocity, frequency)
     entries = []
     for row, name in enumerate(ride["absorber"]):
-        words = f"{figures.absorber_name(str(name))}: "
+        words = f"{figures.design_name(str(name))}: "
         mode = int(np.flatnonzero(modes["absorber"] == name)[0])
         rate = f"{modes['operating_growth_rate'][mode]:+.2f}".replace("-", "−")
         words += f"growth rate {rate} 1/s at "

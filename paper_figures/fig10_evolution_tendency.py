@@ -101,7 +101,7 @@ def legend(tendency: dict[str, np.ndarray]) -> list:
     """Entries of the legend: absorbers as lines, simulations as marks."""
     entries = []
     for name in map(str, tendency["absorber"]):
-        words = figures.absorber_name(name)
+        words = figures.design_name(name)
         entries.append(figures.key(f"{words}, linearised", **LOOKS[name]))
         mark = {"color": LOOKS[name]["color"], "marker": MARKERS[name], "markersize": 2.6}
         entries.append(figures.key(f"{words}, simulated orders", linestyle="none", **mark))

@@ -36,7 +36,7 @@ def draw(maps: dict[str, np.ndarray], cfg: dict) -> Figure:
         for axes, k in zip(panels[row], (none, others[0]), strict=False):
             image = draw_map(axes, maps, "speed", k, row, norm)
             draw_orders(axes, maps, 2.0 * np.pi * cfg["bogie"]["wheel"]["radius"])
-            words = figures.absorber_name(absorbers[k])
+            words = figures.design_name(absorbers[k])
             axes.set_title(words, fontsize="medium")
         draw_map(panels[row, 2], maps, "radius", none, row, norm)
         panels[row, 2].set_title("no absorber, over the radius", fontsize="medium")

@@ -13,15 +13,18 @@ PAPER = {
     ("resilient_wheel", "outer"): ("(3) about 120", "slightly below 1"),
     ("resilient_wheel", "inner"): ("(3) about 120", "slightly below 1"),
 }
+OF_THE_PAPER = ["paper: frequency (Hz)", "paper: factor"]
 HEADINGS = [
     "wheel", "peak", "absorber", "frequency (Hz)", "share of the largest",
-    "factor", "factor at whole orders", "paper: frequency (Hz)", "paper: factor",
+    "factor", "factor at whole orders", *OF_THE_PAPER,
 ]  # fmt: skip
 
 
-def main(*, table: str, page: str, code: str, evolution_tendency: str) -> None:
-    """Write the table for spreadsheets and as a page."""
+def main(*, table: str, page: str, code: str, line: str, evolution_tendency: str) -> None:
+    """Write the table for spreadsheets and as a page; the paper's words are about its own line."""
     rows = [HEADINGS, *peaks(results.read(evolution_tendency))]
+    if line != "paper":
+        rows = [row[: -len(OF_THE_PAPER)] for row in rows]
     tables.save(table, page, "Effect of the absorbers", rows)
 
 
@@ -39,7 +42,7 @@ def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
                     [
                         wheel.replace("_", " "),
                         peak.replace("_", " "),
-                        figures.absorber_name(absorber),
+                        figures.design_name(absorber),
                         number(tendency["peak_frequency"][place], "{:.1f}"),
                         number(tendency["peak_tendency"][place] / largest, "{:.3f}"),
                         number(tendency["peak_factor"][place], "{:.2f}"),
@@ -61,5 +64,6 @@ if __name__ == "__main__":
             table=snakemake.output.table,
             page=snakemake.output.page,
             code=snakemake.params.code,
+            line=snakemake.wildcards.line,
             evolution_tendency=snakemake.input.evolution_tendency,
         )

@@ -10,17 +10,17 @@ from tramdva import figures, job, results
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LEVELS = np.arange(0.0, 1.01, 0.1)
-STIFFNESS = 1e5  # N m/rad per unit of the axis
 
 
 def main(*, pdf: str, png: str, code: str, cfg: dict, tendency_maps: str) -> None:
     """Draw the chart from the maps of the tendency."""
     with figures.style(STYLE):
-        figure = draw(results.read(tendency_maps), cfg["study"]["design_band"])
+        motion = cfg["bogie"]["absorber"]["motion"]
+        figure = draw(results.read(tendency_maps), cfg["study"]["design_band"], motion)
         figures.save(figure, pdf, png, f"Absorbers against polygons: {cfg['label']}")
 
 
-def draw(maps: dict[str, np.ndarray], band: dict[str, float]) -> Figure:
+def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rotation") -> Figure:
     """Draw a panel per wheel, and one of the wheel with the larger factor."""
     charts = [
         *zip(
@@ -33,20 +33,21 @@ def draw(maps: dict[str, np.ndarray], band: dict[str, float]) -> Figure:
         charts.append(("worse of the wheels", maps["map_worst_factor"]))
     figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
     panels = figure.subplots(1, len(charts), squeeze=False, sharey=True)[0]
+    unit, stiffness_label, damping_label = figures.ABSORBER_AXES[motion]
     for axes, name, (words, factor) in zip(panels, "abcde", charts, strict=False):
-        image = draw_map(axes, maps, factor)
+        image = draw_map(axes, maps, factor, unit)
         figures.letter(axes, name)
         axes.set_title(words, fontsize="medium")
-        axes.set_xlabel("stiffness (10⁵ N m/rad)")
-    panels[0].set_ylabel("damping (N m s/rad)")
+        axes.set_xlabel(stiffness_label)
+    panels[0].set_ylabel(damping_label)
     label = f"peak in {band['min']:.0f} to {band['max']:.0f} Hz:\nwith over without absorbers"
     figure.colorbar(image, ax=list(panels), label=label)
     return figure
 
 
-def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray):
+def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray, unit: float):
     """Draw the factor over stiffness and damping with the line's absorbers as marks."""
-    stiffness = maps["map_c_T"] / STIFFNESS
+    stiffness = maps["map_c_T"] / unit
     image = axes.contourf(
         stiffness, maps["map_d_T"], factor, LEVELS, cmap=figures.SPREAD, extend="both"
     )
@@ -54,9 +55,9 @@ def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray):
     for row, name in enumerate(map(str, maps["absorber"])):
         if not np.isfinite(maps["c_T"][row]):
             continue
-        place = maps["c_T"][row] / STIFFNESS, maps["d_T"][row]
+        place = maps["c_T"][row] / unit, maps["d_T"][row]
         axes.plot(*place, "s", markerfacecolor="white", markeredgecolor="black")
-        words = figures.absorber_name(name, short=True)
+        words = figures.design_name(name)
         axes.annotate(words, place, (5, 4), textcoords="offset points", color="white")
     low = np.unravel_index(np.argmin(factor), factor.shape)
     axes.plot(stiffness[low[1]], maps["map_d_T"][low[0]], "o", color="white", markersize=3)

@@ -69,7 +69,7 @@ def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     order = tendency["order"]
     axes.step(order, tendency["level"][row], where="mid", color="black", linewidth=0.9, label="now")
     for k, name in enumerate(map(str, tendency["absorber"])):
-        words = figures.absorber_name(name, short=True)
+        words = figures.design_name(name)
         axes.step(
             order, tendency["level_after"][k, row], where="mid",
             color=figures.ABSORBER_COLOURS[name], linewidth=1.1, label=f"later, {words}",

@@ -283,7 +283,7 @@ WRONG_RUNS = {
     ),
     "quite unknown line": (
         "lines: [paper, zzz]",
-        "lines[1] = zzz: there is no config/lines/zzz.yaml; there are: paper",
+        "lines[1] = zzz: there is no config/lines/zzz.yaml; there are: paper, worn-40m",
     ),
     "line twice": ("lines: [paper, paper]", "lines: paper is given twice"),
     "no lines": (
@@ -419,7 +419,7 @@ def test_program_ends_with_the_problems_alone(config_folder: Path) -> None:
         config.load_or_exit(config_folder, overrides={"lines": ["zzz"]})
 
     assert ended.value.code == (
-        "--config: lines[0] = zzz: there is no config/lines/zzz.yaml; there are: paper"
+        "--config: lines[0] = zzz: there is no config/lines/zzz.yaml; there are: paper, worn-40m"
     )
 
 

@@ -7,6 +7,7 @@ of a line, the record is cloned to a line per key, so that a single dry run answ
 import base64
 import fcntl
 import json
+import os
 import re
 import shutil
 import time
@@ -21,6 +22,12 @@ from tramdva.parameters import Numerics
 from tramdva.provenance import code_hash, reached_modules
 from tramdva.registry import STAGES
 
+# Keys of measured files, and such a file.
+MEASURED = {
+    "contact_geometry.wheel.measured": "worn_wheel.csv",
+    "contact_geometry.rail.measured": "worn_rail.csv",
+    "out_of_roundness.measured": "out_of_round.csv",
+}
 # What each rule reads of the files of others.
 UPSTREAM = {
     "hopf_points": ["stability_map"],
@@ -87,6 +94,13 @@ USERS = {
     "track": [*BOGIE, *ROUGH_BOGIE],
     "track.speed": [*BOGIE, *ROUGH_BOGIE, "campbell_chart"],
     "bogie": [*BOGIE, *ROUGH_BOGIE, "fig08_bogie"],
+    "bogie.absorber.motion": [
+        *BOGIE,
+        *ROUGH_BOGIE,
+        "fig08_bogie",
+        "bogie_stability",
+        "tendency_design_chart",
+    ],
     "bogie.wheel.radius": [
         "contact_geometry",
         *BOGIE,
@@ -212,6 +226,8 @@ def completed_once(frozen_code: Path, snakemake, tmp_path_factory) -> Path:
         path.read_text(encoding="utf-8"),
     )
     assert count == 1
+    few, count = re.subn(r"lines: .*", "lines: [paper]", few)
+    assert count == 1
     path.write_text(few, encoding="utf-8")
     make_files(folder, "paper")
     (folder / supervision.FOLDER).mkdir()
@@ -240,6 +256,13 @@ def clone_line(folder: Path, line: str) -> None:
             (folder / ".snakemake/metadata" / encoded(new)).write_text(record)
 
 
+def measured_as(key: str, name: str) -> dict:
+    """A line's content that gives a measured file."""
+    for part in reversed(key.split(".")):
+        name = {part: name}
+    return name
+
+
 def encoded(name: str) -> str:
     return base64.b64encode(name.encode()).decode()
 
@@ -257,13 +280,15 @@ def test_nothing_to_do_when_complete(completed: Path, snakemake) -> None:
 def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) -> None:
     paper = config.load(completed / "config").lines["paper"]
     changes = list(changed(paper.model_dump(mode="json")))
+    for number, (key, _) in enumerate(changes):
+        if key in MEASURED:
+            changes[number] = key, measured_as(key, f"profiles/{MEASURED[key]}")
     keys = {f"key{number}": key for number, (key, _) in enumerate(changes)}
     for line, (_, content) in zip(keys, changes, strict=True):
         clone_line(completed, line)
         write_line(completed, line, content)
     clone_line(completed, "same")
     write_line(completed, "same", {})
-    (completed / "x").touch()  # the measured file that a line is given
 
     plan = summary(snakemake, completed, "--config", f"lines=[same,{','.join(keys)}]")
 
@@ -272,6 +297,52 @@ def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) ->
     assert {keys[line]: rules for line, rules in plan.items()} == {
         key: concerned(key) for key in keys.values()
     }
+
+
+@pytest.mark.parametrize("key", MEASURED)
+def test_content_of_a_measured_file_counts_not_its_date(
+    completed: Path, snakemake, key: str
+) -> None:
+    path = completed / "config/profiles" / MEASURED[key]
+    write_line(completed, "x", measured_as(key, f"profiles/{path.name}"))
+    only_x = ("--config", "lines=[x]")
+    make_files(completed, "x")
+    with (completed / supervision.ALIVE).open("w") as alive:
+        fcntl.flock(alive, fcntl.LOCK_SH)
+        ended = snakemake(completed, "--touch", "--forceall", "--quiet", "all", *only_x)
+    assert ended.returncode == 0, ended.stderr
+    assert summary(snakemake, completed, *only_x) == {"x": set()}
+
+    *points, last = path.read_text(encoding="utf-8").splitlines()
+    path.write_text("\n".join(points) + "\n", encoding="utf-8")
+    os.utime(path, (1e9, 1e9))  # older than all that was made from its predecessor
+
+    user = "bogie_simulation" if key.startswith("out_of_roundness") else "contact_geometry"
+    assert summary(snakemake, completed, *only_x) == {"x": with_downstream({user})}
+    append(path, f"{last}\n")
+    assert summary(snakemake, completed, *only_x) == {"x": set()}
+
+
+@pytest.mark.refuses
+@pytest.mark.parametrize("key", MEASURED)
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [(None, "there is no file config/profiles/x.csv"), ("1 2 3\n", "config/profiles/x.csv")],
+)
+def test_wrong_measured_file_stops_the_run_before_it_starts(
+    completed: Path, snakemake, key: str, content: str | None, said: str
+) -> None:
+    write_line(completed, "x", measured_as(key, "profiles/x.csv"))
+    if content:
+        (completed / "config/profiles/x.csv").write_text(content)
+
+    ended = snakemake(completed, "-n", "--config", "lines=[x]")
+
+    lines = [line for line in ended.stderr.splitlines() if "workflow specific profile" not in line]
+    assert ended.returncode == 1
+    assert len(lines) == 1
+    assert said in lines[0]
+    assert content or lines[0].startswith(f"config/lines/x.yaml: {key} = profiles/x.csv: ")
 
 
 def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
@@ -500,9 +571,10 @@ def test_catalog_finds_the_same_jobs(root: Path, tmp_path: Path, snakemake) -> N
         jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
         tables.append({rule: number for rule, number in jobs.items() if rule in RULES})
 
-    orders = config.load(root / "config").run.numerics.evolution_tendency.orders.listed()
+    loaded = config.load(root / "config")
+    orders = loaded.run.numerics.evolution_tendency.orders.listed()
     many = {"bogie_linearisation": 2, "bogie_simulation": 2 * len(orders), "wear": 2 * len(orders)}
-    expected = {rule: str(many.get(rule, 1)) for rule in RULES}
+    expected = {rule: str(len(loaded.lines) * many.get(rule, 1)) for rule in RULES}
     assert tables[0] == tables[1] == expected
 
 
@@ -513,7 +585,7 @@ def test_own_configuration_of_the_working_directory_counts(
     write_line(tmp_path, "dresden", {"label": "Dresden"})
     append(tmp_path / "config/config.yaml", "\n")
     path = tmp_path / "config/config.yaml"
-    path.write_text(path.read_text().replace("lines: [paper]", "lines: [dresden]"))
+    path.write_text(re.sub(r"lines: .*", "lines: [dresden]", path.read_text()))
 
     assert summary(snakemake, tmp_path) == {"dresden": RULES}
 
@@ -596,9 +668,9 @@ def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
                 assert name == of, rule
             script = script_of(root, rule).read_text(encoding="utf-8")
             used = set(re.findall(r"snakemake\.input\.(?:get\(\")?(\w+)", script))
-            files = set(declared) - {"measured"}
-            assert used - {"measured"} == set(UPSTREAM.get(rule, [])) == files, rule
-            assert ("measured" in used) == ("measured" in declared), rule
+            assert used == set(declared), rule
+            files = {name for name in declared if not name.startswith("measured")}
+            assert set(UPSTREAM.get(rule, [])) == files, rule
 
 
 def test_parameters_of_jobs_are_plain_json(root: Path) -> None:

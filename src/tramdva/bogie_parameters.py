@@ -6,7 +6,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from tramdva.quantities import Real, Section, quantity
+from tramdva.quantities import Real, Section, measured_file, quantity
 
 GREATEST_CHORD_ANGLE = 0.05  # rad; linear kinematics and the contact tables end near 0.06
 GREATEST_LATERAL_ACCELERATION = 4.0  # m/s^2, of the curve less the cant
@@ -244,8 +244,12 @@ class Bogie(BareBogie):
 
 
 class WheelProfile(Section):
-    """Parametric tram wheel."""
+    """Measured or parametric tram wheel; of a measured one only `tape_circle_offset` counts."""
 
+    measured: str = measured_file("a measured profile, y from the tape circle and z in mm")
+    measured_noise: Real = quantity(
+        "standard deviation of the measured points", "m", 0, 1e-4, "ASSUME"
+    )
     flange_root_radius: Real = quantity("radius of the flange root", "m", 5e-3, 0.05, "ASSUME")
     flange_angle: Real = quantity("angle of the flank", "rad", 0.95, 1.3, "ASSUME")
     conicity: Real = quantity("slope of the tread", "-", 0, 0.15, "ASSUME")
@@ -259,8 +263,12 @@ class WheelProfile(Section):
 
 
 class RailProfile(Section):
-    """Parametric head of a grooved rail."""
+    """Measured or parametric head of a rail; of a measured one only `lateral_position` counts."""
 
+    measured: str = measured_file("a measured profile, y from the top of the rail and z in mm")
+    measured_noise: Real = quantity(
+        "standard deviation of the measured points", "m", 0, 1e-4, "ASSUME"
+    )
     crown_radius: Real = quantity("radius of the crown", "m", 0.05, 1, "ASSUME")
     corner_radius: Real = quantity("radius of the gauge corner", "m", 3e-3, 0.05, "ASSUME")
     corner_start: Real = quantity(

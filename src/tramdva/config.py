@@ -16,8 +16,9 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from tramdva import schema, slips, strict_yaml
+from tramdva import measured_files, schema, slips, strict_yaml
 from tramdva.bogie_parameters import BareBogie, BogieAbsorber
+from tramdva.measured_files import MeasuredFile
 from tramdva.parameters import LINE_NAME, Line, Run
 
 BASE_LINE = "paper"
@@ -115,6 +116,8 @@ STAGES: dict[str, tuple[str, ...]] = {
     "contact_geometry": (
         "contact_geometry",
         "bogie.wheel.radius",
+        "measured.wheel",
+        "measured.rail",
         "numerics.contact_geometry",
     ),
     "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
@@ -123,7 +126,11 @@ STAGES: dict[str, tuple[str, ...]] = {
     "bogie_linearisation_none": _ROUGH_BOGIE,
     "bogie_linearisation_paper": (*_ROUGH_BOGIE, "bogie.absorber"),
     "bogie_linearisation_tuned": (*_ROUGH_BOGIE, *_ABSORBER_TO_TUNE),
-    "bogie_simulation": ("out_of_roundness", "numerics.bogie_simulation"),
+    "bogie_simulation": (
+        "out_of_roundness",
+        "measured.out_of_roundness",
+        "numerics.bogie_simulation",
+    ),
     "wear": ("wear", "numerics.wear"),
     "evolution_tendency": (
         "wear",
@@ -151,12 +158,16 @@ STAGES: dict[str, tuple[str, ...]] = {
     "fig08_bogie": (*_FIGURE, "bogie"),
     "fig09_curve_entry": (*_FIGURE, "study.curve_entry.entry"),
     "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
-    "bogie_stability": (*_FIGURE, "creep_force.B"),
+    "bogie_stability": (*_FIGURE, "creep_force.B", "bogie.absorber.motion"),
     "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
     "fig10_evolution_tendency": _FIGURE,
     "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
     "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
-    "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
+    "tendency_design_chart": (
+        *_FIGURE,
+        "study.tendency_maps.design_band",
+        "bogie.absorber.motion",
+    ),
 }
 
 
@@ -169,10 +180,11 @@ class ConfigurationError(ValueError):
 
 @dataclass(frozen=True)
 class Configuration:
-    """A validated configuration: the run and its lines by name."""
+    """A validated configuration: the run, its lines by name and the measured files of each."""
 
     run: Run
     lines: Mapping[str, Line]
+    measured: Mapping[str, Mapping[str, MeasuredFile]]
 
 
 @dataclass(frozen=True)
@@ -199,9 +211,13 @@ def stage(config: Configuration, line: str, name: str) -> dict[str, Any]:
     -------
     dict
         Plain nested maps, lists, numbers and texts in SI units; the entries of `study` and
-        `numerics` are those of this stage.
+        `numerics` are those of this stage; `measured` holds the hashes of measured files.
     """
     everything = config.lines[line].model_dump(mode="json")
+    measured = config.measured[line]
+    everything["measured"] = {
+        what: measured[what].sha256 if what in measured else "" for what in measured_files.KEYS
+    }
     everything["numerics"] = config.run.numerics.model_dump(mode="json")
     values = _select(everything, [tuple(path.split(".")) for path in STAGES[name]])
     for section in ("study", "numerics"):
@@ -254,10 +270,10 @@ def load(
     if overrides:
         layers.append(_Layer("--config", overrides))
     run = None if problems else _validate(Run, layers, problems)
-    lines = _load_lines(folder, layers, problems)
+    lines, measured = _load_lines(folder, layers, problems)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(slips.harmless, problems))))
-    return Configuration(run, lines)
+    return Configuration(run, lines, measured)
 
 
 def load_or_exit(
@@ -295,33 +311,45 @@ def _names(layers: Sequence[_Layer]) -> dict[str, int]:
     }
 
 
-def _load_lines(folder: Path, run_layers: Sequence[_Layer], problems: list[str]) -> dict[str, Line]:
+def _load_lines(
+    folder: Path, run_layers: Sequence[_Layer], problems: list[str]
+) -> tuple[dict[str, Line], dict[str, dict[str, MeasuredFile]]]:
     base_problems: list[str] = []
     base = _read(folder / "lines" / f"{BASE_LINE}.yaml", folder, base_problems)
     problems += base_problems
     there = sorted(path.stem for path in (folder / "lines").glob("*.yaml"))
-    lines = {}
+    lines, measured = {}, {}
     for name, position in _names(run_layers).items():
         if name not in there:
             where = _origin(("lines", position), run_layers).name
             problems.append(f"{where}: lines[{position}] = {name}: {_no_such_line(name, there)}")
-        elif name == BASE_LINE:
-            lines[name] = _validate(Line, base, problems) if base else None
-        else:
+            continue
+        layers = base
+        if name != BASE_LINE:
             path = folder / "lines" / f"{name}.yaml"
             own = _read(path, folder, problems, ": it must hold what differs, at least its label")
             if own and "label" not in own[0].content:
                 meaning = schema.entries(Line)["label"].meaning
                 problems.append(f"{own[0].name}: label: missing: must be {meaning}")
-            lines[name] = _validate(Line, [*base, *own], problems) if base and own else None
-    lines = {name: line for name, line in lines.items() if line is not None}
-    problems += [
-        f"lines/{name}.yaml: out_of_roundness.measured = {line.out_of_roundness.measured}: "
-        "there is no such file"
-        for name, line in lines.items()
-        if line.out_of_roundness.measured and not Path(line.out_of_roundness.measured).is_file()
-    ]
-    return lines
+            layers = [*base, *own] if base and own else []
+        if layers and (line := _validate(Line, layers, problems)):
+            lines[name] = line
+            measured[name] = _measured(line, folder, layers, problems)
+    return lines, measured
+
+
+def _measured(
+    line: Line, folder: Path, layers: Sequence[_Layer], problems: list[str]
+) -> dict[str, MeasuredFile]:
+    measured = {}
+    for what, name in measured_files.names(line).items():
+        key = measured_files.KEYS[what]
+        try:
+            measured[what] = measured_files.found(folder, name)
+        except measured_files.UnusableFileError as error:
+            where = _origin(key, layers).name
+            problems.append(f"{where}: {'.'.join(key)} = {name}: {error}")
+    return measured
 
 
 def _no_such_line(name: str, there: Sequence[str]) -> str:

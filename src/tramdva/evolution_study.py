@@ -11,7 +11,15 @@ from tramdva.bogie_study import (
     AbsorberName,
     AbsorberStiffnessInterval,
 )
-from tramdva.quantities import Interval, Real, Section, Whole, quantity, unique
+from tramdva.quantities import (
+    Interval,
+    Real,
+    Section,
+    Whole,
+    measured_file,
+    quantity,
+    unique,
+)
 
 WheelName = Annotated[
     str, Field(pattern="^(front|rear)_(outer|inner)$", description="front or rear, outer or inner")
@@ -26,11 +34,7 @@ class OutOfRoundness(Section):
     wheels: Annotated[
         tuple[WheelName, ...], Field(min_length=1, max_length=4), AfterValidator(unique)
     ] = Field(description="wheels that are out of round, their waves in phase (angle s/r_0)")
-    measured: str = Field(
-        max_length=200,
-        pattern=r"^[A-Za-z0-9_./ -]*$",
-        description="file of a measured radius deviation, angle in degrees and um; empty: none",
-    )
+    measured: str = measured_file("a measured radius deviation, angle in degrees and um")
 
 
 class Wear(Section):

@@ -39,7 +39,7 @@ MARKERS = "osD^vP"
 
 DESIGNS = {
     "none": "no absorber",
-    "paper": "line's absorber (Table 2)",
+    "paper": "line's absorber",
     "den_hartog": "Den Hartog",
     "den_hartog_sqrt2": "Den Hartog, damping × √2",
     "abscissa_damping": "Den Hartog, damping of largest decay",
@@ -72,11 +72,11 @@ def mode_name(mode: str) -> str:
     return mode.replace("_", " ")
 
 
-def absorber_name(absorber: str, short: bool = False) -> str:
-    """Name an absorber of the bogie for readers."""
-    if absorber == "paper":
-        return "Table 3" if short else "line's absorber (Table 3)"
-    return design_name(absorber)
+# Stiffness per unit of an axis, labels of stiffness and damping of the bogie's absorber.
+ABSORBER_AXES = {
+    "rotation": (1e5, "stiffness (10⁵ N m/rad)", "damping (N m s/rad)"),
+    "translation": (1e6, "stiffness (10⁶ N/m)", "damping (N s/m)"),
+}
 
 
 def style(path: str | Path) -> AbstractContextManager[None]:

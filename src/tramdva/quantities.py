@@ -43,6 +43,15 @@ def quantity(meaning: str, unit: str, low: float, high: float, origin: str = "")
     )
 
 
+def measured_file(what: str) -> Any:
+    """Describe the name of a measured file: relative to the configuration's folder, or empty."""
+    return Field(
+        max_length=200,
+        pattern=r"^[A-Za-z0-9_./ -]*$",
+        description=f"file of {what}, beside `lines`; empty: none",
+    )
+
+
 class Section(BaseModel):
     """A map of the configuration: frozen, complete, without unknown keys."""
 

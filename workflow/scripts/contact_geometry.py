@@ -2,11 +2,20 @@
 
 from tramdva import job, results
 from tramdva.bogie import line
+from tramdva.contact.measured_profile import measured_profile
 
 
-def main(*, output: str, code: str, cfg: dict) -> None:
+def main(
+    *, output: str, code: str, cfg: dict, measured_wheel: str | None, measured_rail: str | None
+) -> None:
     """Compute the contact tables."""
-    values = line.contact_geometry(cfg)
+    files = {"wheel": measured_wheel, "rail": measured_rail}
+    profiles = {
+        kind: measured_profile(path, kind, cfg["contact_geometry"][kind]["measured_noise"])
+        for kind, path in files.items()
+        if path
+    }
+    values = line.contact_geometry(cfg, **profiles)
     results.save(output, "contact_geometry", values, parameters=cfg, code=code)
 
 
@@ -16,4 +25,6 @@ if __name__ == "__main__":
             output=snakemake.output[0],
             code=snakemake.params.code,
             cfg=snakemake.params.cfg,
+            measured_wheel=snakemake.input.get("measured_wheel") or None,
+            measured_rail=snakemake.input.get("measured_rail") or None,
         )

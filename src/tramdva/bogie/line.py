@@ -19,6 +19,7 @@ from tramdva.bogie.rough_wheel_files import TABLE_FIELDS, contact_tables
 from tramdva.bogie.vehicle import build_vehicle
 from tramdva.bogie_parameters import BareBogie, Bogie, BogieAbsorber, ContactGeometry, Track
 from tramdva.contact import patch
+from tramdva.contact.profiles import Profile
 
 
 class BogieLine(NamedTuple):
@@ -40,13 +41,23 @@ class BogieLine(NamedTuple):
     elements_per_section: int
 
 
-def contact_geometry(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """Contact tables of the line's profiles: variables of ``contact_geometry.nc``."""
+def contact_geometry(
+    cfg: Mapping[str, Any], wheel: Profile | None = None, rail: Profile | None = None
+) -> dict[str, np.ndarray]:
+    """Contact tables of the line's profiles: variables of ``contact_geometry.nc``.
+
+    Parameters
+    ----------
+    cfg : values of the stage
+    wheel, rail : measured profiles; None: those of the parameters
+    """
     tables = running.zone_tables(
         ContactGeometry.model_validate(cfg["contact_geometry"]),
         cfg["bogie"]["wheel"]["radius"],
         cfg["numerics"]["shift_step"],
         cfg["numerics"]["yaw_nodes"],
+        wheel,
+        rail,
     )
     return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
 

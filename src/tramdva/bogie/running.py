@@ -61,35 +61,52 @@ def wheel_places(
     )
 
 
+def parametric_wheel(wheel) -> profiles.Profile:
+    """Wheel profile of the parameters (`bogie_parameters.WheelProfile`)."""
+    return profiles.tram_wheel(
+        wheel.flange_root_radius,
+        wheel.flange_angle,
+        wheel.conicity,
+        wheel.tread_inner,
+        wheel.tread_outer,
+    )
+
+
+def parametric_rail(rail) -> profiles.Profile:
+    """Rail profile of the parameters (`bogie_parameters.RailProfile`)."""
+    return profiles.grooved_rail(
+        rail.crown_radius,
+        rail.corner_radius,
+        rail.corner_start,
+        field_half_width=rail.field_half_width,
+    )
+
+
 def zone_tables(
-    contact_geometry, wheel_radius: float, shift_step: float = 2.5e-5, yaw_nodes: int = 24
+    contact_geometry,
+    wheel_radius: float,
+    shift_step: float = 2.5e-5,
+    yaw_nodes: int = 24,
+    wheel: profiles.Profile | None = None,
+    rail: profiles.Profile | None = None,
 ) -> tuple:
-    """Contact tables of the zones of the parametric profiles (`bogie_parameters`).
+    """Contact tables of the zones of the profiles: the given ones, else those of the parameters.
 
     `shift_step` in m and the number of nodes over the yaw angle: a conformal flange root, whose
     locus is an arc of few mm that shrinks with the yaw angle, needs fine ones.
     """
-    wheel, rail = contact_geometry.wheel, contact_geometry.rail
+    position = contact_geometry.rail.lateral_position
     return geometry.contact_tables(
-        profiles.tram_wheel(
-            wheel.flange_root_radius,
-            wheel.flange_angle,
-            wheel.conicity,
-            wheel.tread_inner,
-            wheel.tread_outer,
-        ),
-        profiles.grooved_rail(
-            rail.crown_radius, rail.corner_radius, rail.corner_start,
-            field_half_width=rail.field_half_width,
-        ),
+        wheel or parametric_wheel(contact_geometry.wheel),
+        rail or parametric_rail(contact_geometry.rail),
         wheel_radius,
-        shift_range=(-rail.lateral_position - SHIFT_RANGE, -rail.lateral_position + SHIFT_RANGE),
+        shift_range=(-position - SHIFT_RANGE, -position + SHIFT_RANGE),
         roll_limit=ROLL_RANGE,
         yaw_limit=YAW_RANGE,
         gap_scale=contact_geometry.gap_scale,
         shift_step=shift_step,
         yaw_nodes=yaw_nodes,
-    )  # fmt: skip
+    )
 
 
 # Beyond the results of a contact: where it was evaluated (y, z, roll, yaw).

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import make_smoothing_spline
+import scipy  # its parts load when they are used: checking a file needs none
 
 from tramdva.contact.profiles import MM, STEEPEST, Profile, ProfileError, resample
 
@@ -11,6 +11,8 @@ FEWEST_POINTS = 20
 SMALLEST_EXTENT_MM = 20.0
 LARGEST_EXTENT_MM = 250.0
 LARGEST_GAP_MM = 5.0
+REACH_MM = 8.0  # on either side of the origin
+SMALLEST_RISE_MM = 4.0  # of flange or gauge corner
 GREATEST_SIZE = 1_000_000  # bytes
 MOST_POINTS = 20_000
 
@@ -40,6 +42,35 @@ def read_points(path: str | Path) -> np.ndarray:
         array, lines = array[::-1].copy(), lines[::-1]
     _check_order(path, array, lines)
     return array
+
+
+def read_profile(path: str | Path, kind: str) -> np.ndarray:
+    """Read points as `read_points` does and check that they lie as a wheel's or a rail's must.
+
+    `kind` is 'wheel' or 'rail'; the flange, or the gauge corner, is at negative y, and z points
+    downwards: both lie deeper than the origin.
+    """
+    if kind not in ("wheel", "rail"):
+        raise ProfileError(f"{path}: kind '{kind}' is unknown; allowed: wheel, rail")
+    points = read_points(path)
+    y, z = points.T
+    origin, part = {
+        "wheel": ("the tape circle", "the flange"),
+        "rail": ("the top of the rail", "the gauge corner"),
+    }[kind]
+    if y[0] > -REACH_MM or y[-1] < REACH_MM:
+        raise ProfileError(
+            f"{path}: y runs from {y[0]:g} to {y[-1]:g} mm; it must reach {REACH_MM:g} mm beyond "
+            f"y = 0, {origin}, on both sides"
+        )
+    rise = z[y < 0.0].max() - np.interp(0.0, y, z)
+    if rise < SMALLEST_RISE_MM:
+        raise ProfileError(
+            f"{path}: at negative y the profile lies at most {rise:.3g} mm below that at y = 0; "
+            f"{part} must be there and reach {SMALLEST_RISE_MM:g} mm "
+            "(y outwards to the field side, z downwards)"
+        )
+    return points
 
 
 def _text(path):
@@ -119,27 +150,23 @@ def _check_order(path, array, lines):
         )
 
 
-def measured_profile(
-    path: str | Path, kind: str, noise: float = 0.01e-3, origin: tuple[float, float] = (0.0, 0.0)
-) -> Profile:
+def measured_profile(path: str | Path, kind: str, noise: float = 0.01e-3) -> Profile:
     """Profile from a measured file, smoothed.
 
     Parameters
     ----------
-    path : see `read_points`
+    path : see `read_points` and `read_profile`; y = 0 is the tape circle or the rail's top
     kind : 'wheel' or 'rail'
     noise : m, expected standard deviation of the measured points; 0 interpolates
-    origin : m, (position, depth) in the file of the tape circle or of the rail's top
 
     Notes
     -----
     A cubic smoothing spline over the arc length of the points, position and depth each, with the
     penalty (of the second derivative) chosen by bisection so that the rms distance of spline and
-    points equals `noise`. Parts steeper than 78 degrees are left out.
+    points equals `noise`. What lies beyond parts steeper than 78 degrees is left out. Depths count
+    from that of a wheel at y = 0 and from a rail's highest point, wherever the file's z is zero.
     """
-    if kind not in ("wheel", "rail"):
-        raise ProfileError(f"{path}: kind '{kind}' is unknown; allowed: wheel, rail")
-    points = read_points(path) * MM - np.asarray(origin)
+    points = read_profile(path, kind) * MM
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     fine = np.linspace(0.0, arc[-1], max(2000, 20 * arc.size))
     y_spline, z_spline = _smooth(arc, points, noise)
@@ -149,23 +176,28 @@ def measured_profile(
         raise ProfileError(
             f"{path}: the smoothed profile turns back near y = {bad:.2f} mm; cut undercut parts"
         )
-    keep = np.abs(dz / dy) < 2.0 * STEEPEST
-    return resample(
-        f"measured {Path(path).name}",
-        kind,
-        y_spline(fine)[keep],
-        z_spline(fine)[keep],
-        (dz / dy)[keep],
-    )
+    part = _around_the_origin(y_spline(fine), np.abs(dz / dy) <= STEEPEST)
+    position, depth = y_spline(fine)[part], z_spline(fine)[part]
+    depth -= depth.min() if kind == "rail" else np.interp(0.0, position, depth)
+    return resample(f"measured {Path(path).name}", kind, position, depth, (dz / dy)[part])
+
+
+def _around_the_origin(position, gentle):
+    """The stretch of gentle slopes that holds the origin: no groove wall, no keeper."""
+    steep = np.flatnonzero(~gentle)
+    origin = np.searchsorted(position, 0.0)
+    inner, outer = steep[steep < origin], steep[steep >= origin]
+    return slice(inner[-1] + 1 if inner.size else 0, outer[0] if outer.size else None)
 
 
 def _smooth(arc, points, noise):
     """Smoothing splines y(arc), z(arc) whose rms distance from the points is `noise`."""
     scale = arc[-1] / arc.size
+    spline = scipy.interpolate.make_smoothing_spline
 
     def fit(log_penalty):
         penalty = 10.0**log_penalty * scale**3
-        pair = [make_smoothing_spline(arc / scale, p, lam=penalty / scale**3) for p in points.T]
+        pair = [spline(arc / scale, p, lam=penalty / scale**3) for p in points.T]
         off = np.hypot(*(pair[i](arc / scale) - points[:, i] for i in range(2)))
         return pair, np.sqrt(np.mean(off**2))
 
