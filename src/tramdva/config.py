@@ -142,6 +142,28 @@ STAGES: dict[str, tuple[str, ...]] = {
         "numerics.wear",
         "numerics.tendency_maps",
     ),
+    "wheelset_designs": (
+        *_FORCE,
+        *_WHEELSET,
+        "absorber",
+        "forced_excitation.B",
+        "study.stability_map.c_A",
+        "study.stability_map.c_R",
+        "study.frequency_response.frequency",
+        "study.wheelset_designs",
+        "numerics.wheelset_designs",
+    ),
+    "bogie_designs": (
+        *_BOGIE,
+        "forced_excitation.B",
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency.frequency",
+        "study.tendency_maps.design_band",
+        "study.bogie_designs",
+        "numerics.wear",
+        "numerics.bogie_designs",
+    ),
     "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
@@ -157,6 +179,13 @@ STAGES: dict[str, tuple[str, ...]] = {
     "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
     "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
     "tendency_design_chart": (*_FIGURE, "study.tendency_maps.design_band"),
+    "explorer": (
+        *_FIGURE,
+        "creep_force.B",
+        "forced_excitation.B",
+        "bogie.absorber.motion",
+        "study.tendency_maps.design_band",
+    ),
 }
 
 
