@@ -11,7 +11,7 @@ SELF_EXCITATIONS = ("stable", "self_excited", "no_oscillation", "no_equilibrium"
 
 STAGES: dict[str, Stage] = {
     "wheelset_designs": Stage(
-        "Stability and frequency response of the wheelset over the absorber's stiffness and damping",
+        "Stability and frequency response of the wheelset over its absorber's c_T and d_T",
         {
             "d_T": real("d_T", "N s/m", "damping of the absorber"),
             "c_T": real("c_T", "N/m", "stiffness of the absorber"),
