@@ -157,6 +157,7 @@ async function start() {
   const library = document.createElement("script");
   library.textContent = await text("library");
   document.head.appendChild(library);
+  Bokeh.logger.set_level("warn");
   window.explorer = {};
   for (const [name, data] of Object.entries(JSON.parse(await text("data")))) {
     window.explorer[name] = new Model(name, data);
