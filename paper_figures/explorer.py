@@ -184,13 +184,12 @@ def stability(found: dict[str, np.ndarray]) -> figure:
 def response(grid: Grid, found: dict[str, np.ndarray]) -> figure:
     """Receptance with this design, the line's and none."""
     plot = canvas("frequency (Hz)", "receptance (mm/kN)", 260, y_axis_type="log")
-    three_curves(
-        plot,
-        found["frequency"],
-        found["receptance_amplitude"][grid.own] / MM_PER_KN,
-        found["none_receptance_amplitude"] / MM_PER_KN,
-        "top_right",
-    )
+    none = found["none_receptance_amplitude"] / MM_PER_KN
+    designs = found["receptance_amplitude"] / MM_PER_KN
+    three_curves(plot, found["frequency"], designs[grid.own], none, "top_right")
+    known = np.concatenate([values[np.isfinite(values)] for values in (designs, none)])
+    ends = (known.min() / 1.2, known.max() * 1.2) if known.size else (0.01, 1.0)
+    plot.y_range = Range1d(*map(float, ends))
     plot.yaxis.formatter = BasicTickFormatter()
     return plot
 

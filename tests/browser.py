@@ -42,3 +42,10 @@ class Watched:
         self.tab.on("console", lambda message: self.said.append(message.text))
         self.tab.on("pageerror", lambda error: self.said.append(str(error)))
         self.tab.on("request", lambda request: self.asked.append(request.url))
+
+
+def wait_for_value(tab, field: str, value: float) -> None:
+    """Wait until a field of a form holds a value: a single click counts after a while only."""
+    from playwright.sync_api import expect
+
+    expect(tab.locator(field)).to_have_value(str(value))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import Watched, chromium
+from browser import Watched, chromium, wait_for_value
 from figure_scripts import script
 from PIL import Image
 
@@ -247,14 +247,14 @@ def test_a_click_on_a_design_chooses_it(tab, files):
     frame = tab.evaluate("""() => {
         const view = Bokeh.index.get_by_id(explorer.wheelset.data.plots.wheelset_plane.root_id);
         const box = view.el.getBoundingClientRect(), inner = view.frame.bbox;
-        return [box.x + inner.x0, box.y + inner.y0, inner.width, inner.height];
+        return [box.x + inner.left, box.y + inner.top, inner.width, inner.height];
     }""")
-    tab.mouse.click(frame[0] + 0.99 * frame[2], frame[1] + 0.02 * frame[3])
+    tab.mouse.click(frame[0] + 0.99 * frame[2], frame[1] + 0.99 * frame[3])
     file = files["wheelset"]
-    assert tab.input_value("#wheelset .c_T") == str(file["c_T"].size - 1)
-    assert tab.input_value("#wheelset .d_T") == str(file["d_T"].size - 1)
+    wait_for_value(tab, "#wheelset .c_T", file["c_T"].size - 1)
+    assert tab.input_value("#wheelset .d_T") == "0"
     place = tab.evaluate(PLACE, ["wheelset", "wheelset_plane"])
-    np.testing.assert_allclose(place, [file["c_T"][-1] / 1e6, file["d_T"][-1] / 1e3])
+    np.testing.assert_allclose(place, [file["c_T"][-1] / 1e6, file["d_T"][0] / 1e3])
 
 
 def test_buttons_choose_the_own_and_the_best_design(tab, files):
