@@ -86,10 +86,8 @@ def canvas(x: str, y: str, height: int, **options) -> figure:
     """Empty plot that takes the width it is given."""
     plot = figure(
         height=height, sizing_mode="stretch_width", x_axis_label=x, y_axis_label=y,
-        tools="box_zoom,reset,save", toolbar_inner=True, min_width=0, **options,
+        min_width=0, **({"tools": "", "toolbar_location": None} | options),
     )  # fmt: skip
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
     for axis in plot.axis:
         axis.axis_label_text_font_style = "normal"
     return plot
@@ -192,6 +190,9 @@ def three_curves(
     source = ColumnDataSource({"x": frequency, "y": np.full(frequency.size, np.nan)}, name="now")
     plot.line("x", "y", source=source, color=NOW, line_width=2.4, legend_label="this design")
     plot.x_range = Range1d(float(frequency[0]), float(frequency[-1]))
+    plot.add_tools("box_zoom", "reset")
+    plot.toolbar_location, plot.toolbar_inner = "above", True
+    plot.toolbar.logo, plot.toolbar.autohide = None, True
     plot.legend.location = legend
     plot.legend.background_fill_alpha = 0.7
     plot.legend.label_text_font_size = "11px"
