@@ -112,7 +112,7 @@ def wheelset_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     }
     title = f"Wheelset: absorber of {float(found['m_T']):g} kg"
     shown_plots = wheelset_plots(cfg, grid, found, shown)
-    return Part("wheelset", title, "lowest receptance", data, shown_plots)
+    return Part("wheelset", title, "best stop: lowest receptance", data, shown_plots)
 
 
 def wheelset_rows(found: dict[str, np.ndarray], shown: np.ndarray) -> list[dict]:
@@ -223,7 +223,7 @@ def bogie_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     }
     plots = [*bogie_planes(cfg, grid, found, worst), *tendencies(cfg, grid, found, relative, none)]
     title = f"Bogie: four absorbers of {float(found['m_T']):g} {inertia}"
-    return Part("bogie", title, f"least tendency in {limits}", data, plots)
+    return Part("bogie", title, f"best stop: least tendency in {limits}", data, plots)
 
 
 def bogie_rows(found: dict[str, np.ndarray], shown: np.ndarray, limits: str) -> list[dict]:
