@@ -1,6 +1,8 @@
 """The explorer in a real browser: what it shows is what the result files hold."""
 
 import io
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -338,12 +340,8 @@ def test_nothing_stable_leaves_no_best_design(browser, wheelset, tmp_path):
     assert watched.said == []
 
 
-def test_the_same_results_give_the_same_page(wheelset, tmp_path):
+def test_the_same_results_give_the_same_page(page):
     """In processes of their own, as jobs are."""
-    import subprocess
-    import sys
-
-    page = made_page(tmp_path, wheelset, made_up_bogie())
     again = """
 import sys
 from pathlib import Path
@@ -356,9 +354,9 @@ script("explorer").main(page=str(folder / sys.argv[2]), code="", cfg=cfg, **path
 """
     for name in ("first.html", "second.html"):
         subprocess.run(
-            [sys.executable, "-c", again, str(tmp_path), name],
+            [sys.executable, "-c", again, str(page.parent), name],
             cwd=Path(__file__).parent, check=True,
         )  # fmt: skip
-    first, second = (tmp_path / f"{name}.html" for name in ("first", "second"))
+    first, second = (page.with_name(f"{name}.html") for name in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()
     assert 4e5 < page.stat().st_size < 1.5e6
