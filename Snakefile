@@ -85,6 +85,8 @@ STAGES = [
     "curve_entry",
     "evolution_tendency",
     "tendency_maps",
+    "wheelset_designs",
+    "bogie_designs",
 ]
 PER_ABSORBER = "results/{line}/bogie_linearisation/{absorber}.nc"
 PER_ORDER = [
@@ -109,6 +111,7 @@ PICTURES = [
     "tendency_design_chart",
 ]
 TABLES = ["table2_absorber_designs", "table_absorber_effect"]
+EXPLORER = [FIGURES / f"explorer.{kind}" for kind in ("html", "css", "js")]
 
 
 rule all:
@@ -120,6 +123,7 @@ rule all:
         expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{table}.csv", line=LINES, table=TABLES),
         expand("paper_figures/{line}/{table}.html", line=LINES, table=TABLES),
+        expand("paper_figures/{line}/explorer.html", line=LINES),
     message:
         "all numbers, figures and tables"
 
@@ -458,6 +462,42 @@ rule tendency_maps:
         "{wildcards.line}: tendency over speed, radius and absorber"
     script:
         "workflow/scripts/tendency_maps.py"
+
+
+rule wheelset_designs:
+    output:
+        "results/{line}/wheelset_designs.nc",
+    log:
+        "logs/{line}/wheelset_designs.log",
+    benchmark:
+        "logs/{line}/wheelset_designs.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "wheelset_designs"),
+        code=code_hash(SCRIPTS / "wheelset_designs.py"),
+    message:
+        "{wildcards.line}: the wheelset with any absorber"
+    script:
+        "workflow/scripts/wheelset_designs.py"
+
+
+rule bogie_designs:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+    output:
+        "results/{line}/bogie_designs.nc",
+    log:
+        "logs/{line}/bogie_designs.log",
+    benchmark:
+        "logs/{line}/bogie_designs.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "bogie_designs"),
+        code=code_hash(SCRIPTS / "bogie_designs.py"),
+    message:
+        "{wildcards.line}: the bogie with any absorber"
+    script:
+        "workflow/scripts/bogie_designs.py"
 
 
 rule fig02_stability_map:
@@ -887,3 +927,28 @@ rule table_absorber_effect:
         "{wildcards.line}: effect of the absorbers on the peaks"
     script:
         "paper_figures/table_absorber_effect.py"
+
+
+rule explorer:
+    input:
+        wheelset_designs=rules.wheelset_designs.output[0],
+        bogie_designs=rules.bogie_designs.output[0],
+    output:
+        page=report(
+            "paper_figures/{line}/explorer.html",
+            category="Explorer",
+            caption="workflow/report/explorer.rst",
+            labels={"line": "{line}", "shows": "Any absorber"},
+        ),
+    log:
+        "logs/{line}/explorer.log",
+    benchmark:
+        "logs/{line}/explorer.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "explorer"),
+        code=code_hash(FIGURES / "explorer.py", *EXPLORER),
+    message:
+        "{wildcards.line}: explorer of absorber designs"
+    script:
+        "paper_figures/explorer.py"

@@ -14,6 +14,7 @@ from tramdva.provenance import use_numba_cache
 use_numba_cache()
 
 import pytest
+from browser import MISSING
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -35,6 +36,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     passed = terminalreporter.stats.get("passed", [])
     if refused := sum("refuses" in report.keywords for report in passed):
         terminalreporter.write_line(f"{refused} wrong configurations and measured files refused")
+    skipped = terminalreporter.stats.get("skipped", [])
+    if blind := [report for report in skipped if MISSING in str(report.longrepr)]:
+        terminalreporter.write_line(f"{len(blind)} tests in a browser were skipped: {MISSING}")
 
 
 @pytest.fixture(scope="session")

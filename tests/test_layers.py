@@ -20,6 +20,7 @@ LAYERS = [
         "quantities",
         "bogie_parameters",
         "out_of_roundness",
+        "design_grid",
     },
     {"bifurcation"},
     {"wheelset"},
@@ -27,13 +28,15 @@ LAYERS = [
     {"self_excitation"},
     {"critical_absorber"},
     {"sustained_vibration", "absorber"},
+    {"wheelset_designs"},
     {"contact"},
     {"wear"},
     {"wear_derivative", "wear_history"},
     {"bogie"},
     {"evolution"},
     {"evolution_stages"},
-    {"tendency_maps"},
+    {"attached_tendency"},
+    {"tendency_maps", "bogie_designs"},
     {"warm_up"},
 ]
 # What the pipeline uses around the model, and what each may know.
@@ -46,8 +49,15 @@ AROUND = {
     "wheelset_variables": {"result_variables"},
     "bogie_variables": {"result_variables"},
     "evolution_variables": {"bogie_variables", "result_variables"},
+    "design_variables": {
+        "bogie_variables",
+        "evolution_variables",
+        "result_variables",
+        "wheelset_variables",
+    },
     "registry": {
         "bogie_variables",
+        "design_variables",
         "evolution_variables",
         "result_variables",
         "wheelset_variables",
@@ -71,12 +81,16 @@ AROUND = {
     "inventory": {"config", "provenance", "results", "supervision"},
     "figures": {"results"},
     "tables": {"results"},
+    "packing": set(),
+    "web_plots": set(),
+    "web_page": {"packing"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {
     *READ_MEASUREMENTS,
     "figures",
     "tables",
+    "web_page",
     "config",
     "measured_files",
     "strict_yaml",

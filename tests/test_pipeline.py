@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from browser import Watched, chromium
 
 from tramdva import results
 from tramdva.config import load_or_exit
@@ -123,5 +124,20 @@ def test_report_is_self_contained(quick_run: Path, tmp_path: Path, snakemake) ->
 
     assert ended.returncode == 0, ended.stderr
     text = path.read_text(encoding="utf-8")
-    for words in ("Figure 2", "Figure 7", "Table 2", "Stability", "Forced vibrations"):
+    for words in ("Figure 2", "Figure 7", "Table 2", "Stability", "Forced vibrations", "Explorer"):
         assert words in text, words
+    with chromium() as browser:
+        watched = Watched(browser)
+        watched.tab.goto(path.as_uri())
+        for words in ("Results", "Explorer"):
+            watched.tab.get_by_text(words, exact=True).first.click()
+        watched.tab.locator("td a").first.click()
+        watched.tab.locator("iframe").content_frame.locator("body[data-ready]").wait_for()
+        inside = watched.tab.frames[-1]
+        assert inside.url.startswith("data:text/html")
+        assert inside.locator(".line").text_content() == "Tram line of the paper"
+        before = inside.locator("#bogie td.now").all_text_contents()
+        inside.locator("#bogie .d_T").focus()
+        watched.tab.keyboard.press("ArrowRight")
+        assert inside.locator("#bogie td.now").all_text_contents() != before
+        assert not [url for url in watched.asked if not url.startswith(("file:", "data:", "blob:"))]

@@ -14,7 +14,13 @@ import netCDF4
 import numpy as np
 import pytest
 
-from tramdva import bogie_variables, evolution_variables, results, wheelset_variables
+from tramdva import (
+    bogie_variables,
+    design_variables,
+    evolution_variables,
+    results,
+    wheelset_variables,
+)
 from tramdva.registry import STAGES
 
 LENGTHS = {"absorber": 3, "design": 4, "frequency": 7, "multiplier": 6}
@@ -121,7 +127,7 @@ def test_registry_names_all_it_needs() -> None:
 
 
 def test_each_stage_stands_in_one_table() -> None:
-    tables = (wheelset_variables, bogie_variables, evolution_variables)
+    tables = (wheelset_variables, bogie_variables, evolution_variables, design_variables)
 
     assert len(STAGES) == sum(len(table.STAGES) for table in tables)
 

@@ -60,6 +60,8 @@ UPSTREAM = {
     "order_speed_chart": ["tendency_maps"],
     "tendency_design_chart": ["tendency_maps"],
     "table_absorber_effect": ["evolution_tendency"],
+    "bogie_designs": ["contact_geometry"],
+    "explorer": ["wheelset_designs", "bogie_designs"],
 }
 # Inputs that the paper's line has none of.
 IDLE = {("bogie_linearisation", "curving_equilibrium")}
@@ -72,12 +74,20 @@ FIGURES = [
     "worn_wheels",
     "order_speed_chart",
     "tendency_design_chart",
+    "explorer",
 ]
-RULES = {"stability_map", "hopf_curves", "contact_geometry", "fig08_bogie", *UPSTREAM}
+RULES = {
+    "stability_map",
+    "hopf_curves",
+    "wheelset_designs",
+    "contact_geometry",
+    "fig08_bogie",
+    *UPSTREAM,
+}
 PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
 ABSORBERS, ORDERS = ("none", "paper"), (26, 27)
 BOGIE = ["curving_equilibrium", "bogie_modes", "curve_entry"]
-ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps"]
+ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps", "bogie_designs"]
 WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency"]
 BASIC = [stage for stage in STAGES if stage not in {"contact_geometry", *BOGIE, *WHEELS}]
 WITH_VARIANTS = ["stability_map", "hopf_points", "limit_cycles"]
@@ -89,7 +99,7 @@ USERS = {
     "curve": BASIC,
     "creep_force": BASIC,
     **{f"creep_force.{name}": [*BASIC, *BOGIE, *ROUGH_BOGIE] for name in ("mu_0", "A")},
-    "creep_force.B": [*BASIC, *BOGIE, "bogie_stability"],
+    "creep_force.B": [*BASIC, *BOGIE, "bogie_designs", "bogie_stability", "explorer"],
     "wheelset": BASIC,
     "track": [*BOGIE, *ROUGH_BOGIE],
     "track.speed": [*BOGIE, *ROUGH_BOGIE, "campbell_chart"],
@@ -100,6 +110,7 @@ USERS = {
         "fig08_bogie",
         "bogie_stability",
         "tendency_design_chart",
+        "explorer",
     ],
     "bogie.wheel.radius": [
         "contact_geometry",
@@ -112,25 +123,54 @@ USERS = {
     ],
     "contact_geometry": ["contact_geometry", *BOGIE, *ROUGH_BOGIE],
     "out_of_roundness": ["bogie_simulation"],
-    "out_of_roundness.wheels": ["bogie_simulation", "evolution_tendency", "tendency_maps"],
-    "wear": ["wear", "evolution_tendency", "tendency_maps"],
+    "out_of_roundness.wheels": [
+        "bogie_simulation",
+        "evolution_tendency",
+        "tendency_maps",
+        "bogie_designs",
+    ],
+    "wear": ["wear", "evolution_tendency", "tendency_maps", "bogie_designs"],
     "study.evolution_tendency": ["evolution_tendency", "tendency_maps"],
+    "study.evolution_tendency.frequency": [
+        "evolution_tendency",
+        "tendency_maps",
+        "bogie_designs",
+    ],
     "study.tendency_maps": ["tendency_maps"],
     "study.tendency_maps.design_band": [
         "tendency_maps",
         "tendency_design_chart",
         "worn_wheels",
+        "bogie_designs",
+        "explorer",
     ],
     "study.bogie_modes": ["bogie_modes"],
     "study.bogie_modes.frequency": ["curving_equilibrium", "bogie_modes"],
     "study.curve_entry": ["curve_entry"],
     "study.curve_entry.entry": ["curve_entry", "fig09_curve_entry"],
     "numerics.bogie": [*BOGIE, *ROUGH_BOGIE],
-    "numerics.wear": ["wear", "evolution_tendency", "tendency_maps"],
-    "wheelset.c_A": ["stability_map", "cycle_amplitudes", "absorber_tuning", "frequency_response"],
-    "absorber": ["absorber_tuning", "fig02_stability_map", "fig05_critical_hopf_curve"],
-    "absorber.m_T": WITH_VARIANTS + WITH_CRITICAL_CURVE,
-    "forced_excitation": ["absorber_tuning", "frequency_response", *ROUGH_BOGIE],
+    "numerics.wear": ["wear", "evolution_tendency", "tendency_maps", "bogie_designs"],
+    "wheelset.c_A": [
+        "stability_map",
+        "cycle_amplitudes",
+        "absorber_tuning",
+        "frequency_response",
+        "wheelset_designs",
+    ],
+    "absorber": [
+        "absorber_tuning",
+        "wheelset_designs",
+        "fig02_stability_map",
+        "fig05_critical_hopf_curve",
+    ],
+    "absorber.m_T": [*WITH_VARIANTS, *WITH_CRITICAL_CURVE, "wheelset_designs"],
+    "forced_excitation": [
+        "absorber_tuning",
+        "frequency_response",
+        "wheelset_designs",
+        *ROUGH_BOGIE,
+        "explorer",
+    ],
     "absorber_variants": WITH_VARIANTS,
     "absorber_variants.name": [
         *WITH_VARIANTS,
@@ -139,11 +179,15 @@ USERS = {
     ],
     "absorber_variants.label": ["fig02_stability_map", "fig03_bifurcation_diagram"],
     "study.stability_map": ["stability_map"],
+    "study.stability_map.c_A": ["stability_map", "wheelset_designs"],
+    "study.stability_map.c_R": ["stability_map", "wheelset_designs"],
+    "study.wheelset_designs": ["wheelset_designs"],
+    "study.bogie_designs": ["bogie_designs"],
     "study.limit_cycles": ["limit_cycles"],
     "study.hopf_curves": ["hopf_curves"],
     "study.critical_hopf_curve": ["critical_hopf_curve"],
     "study.cycle_amplitudes": ["cycle_amplitudes"],
-    "study.frequency_response": ["absorber_tuning", "frequency_response"],
+    "study.frequency_response": ["absorber_tuning", "frequency_response", "wheelset_designs"],
 } | {
     f"numerics.{stage}": [stage] for stage in STAGES if stage not in ("curving_equilibrium", "wear")
 }
@@ -186,6 +230,8 @@ def files_of(rule: str, line: str) -> list[str]:
         return [f"results/{line}/{rule}/{absorber}/order_{order}.nc" for absorber, order in jobs]
     if rule in STAGES:
         return [f"results/{line}/{rule}.nc"]
+    if rule == "explorer":
+        return [f"paper_figures/{line}/{rule}.html"]
     kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
     return [f"paper_figures/{line}/{rule}.{kind}" for kind in kinds]
 
@@ -450,7 +496,7 @@ def test_wear_hardness_reruns_no_simulation(completed: Path, snakemake) -> None:
 
     plan = summary(snakemake, completed, "--config", "lines=[x]")
 
-    assert plan["x"] == with_downstream({"wear", "tendency_maps"})
+    assert plan["x"] == with_downstream({"wear", "tendency_maps", "bogie_designs"})
     assert not plan["x"] & {"bogie_simulation", "bogie_linearisation", "curving_equilibrium"}
 
 

@@ -10,6 +10,7 @@ from tramdva.bogie_study import (
     AbsorberDampingInterval,
     AbsorberName,
     AbsorberStiffnessInterval,
+    ModeFrequencyInterval,
 )
 from tramdva.quantities import (
     Interval,
@@ -124,6 +125,28 @@ class TendencyMapsStudy(Section):
     d_T: AbsorberDampingInterval
 
 
+class DesignStiffnessInterval(Interval):
+    """Stiffnesses of the bogie's absorber in equal ratios."""
+
+    min: Real = quantity("lower end", "N m/rad", 1, 1e9)
+    max: Real = quantity("upper end", "N m/rad", 1, 1e9)
+
+
+class DesignDampingInterval(Interval):
+    """Dampings of the bogie's absorber in equal ratios."""
+
+    min: Real = quantity("lower end", "N m s/rad", 1e-3, 1e7)
+    max: Real = quantity("upper end", "N m s/rad", 1e-3, 1e7)
+
+
+class BogieDesignsStudy(Section):
+    """Designs of the bogie's absorber in the explorer."""
+
+    self_excitation: ModeFrequencyInterval
+    c_T: DesignStiffnessInterval
+    d_T: DesignDampingInterval
+
+
 class BogieSimulationNumerics(Section):
     """Simulation of one order."""
 
@@ -173,3 +196,11 @@ class TendencyMapsNumerics(Section):
     radii: Whole = quantity("curve radii", "-", 2, 1000)
     frequency_points: Whole = quantity("frequencies", "-", 10, 10000)
     map_points: Whole = quantity("grid points per axis of the absorber map", "-", 2, 500)
+
+
+class BogieDesignsNumerics(Section):
+    """Grid of the bogie's absorber designs."""
+
+    c_T_points: Whole = quantity("stiffnesses of the absorber", "-", 2, 200)
+    d_T_points: Whole = quantity("dampings of the absorber", "-", 2, 200)
+    frequency_points: Whole = quantity("frequencies", "-", 10, 10000)

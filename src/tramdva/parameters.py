@@ -21,6 +21,8 @@ from tramdva.bogie_study import (
     CurveEntryStudy,
 )
 from tramdva.evolution_study import (
+    BogieDesignsNumerics,
+    BogieDesignsStudy,
     BogieSimulationNumerics,
     EvolutionTendencyNumerics,
     EvolutionTendencyStudy,
@@ -197,6 +199,27 @@ class FrequencyResponseStudy(Section):
     frequency: FrequencyInterval
 
 
+class DesignStiffnessInterval(Interval):
+    """Stiffnesses of the absorber in equal ratios."""
+
+    min: Real = quantity("lower end", "N/m", 1e3, 1e11)
+    max: Real = quantity("upper end", "N/m", 1e3, 1e11)
+
+
+class DesignDampingInterval(Interval):
+    """Dampings of the absorber in equal ratios."""
+
+    min: Real = quantity("lower end", "N s/m", 1, 1e7)
+    max: Real = quantity("upper end", "N s/m", 1, 1e7)
+
+
+class WheelsetDesignsStudy(Section):
+    """Designs of the wheelset's absorber in the explorer."""
+
+    c_T: DesignStiffnessInterval
+    d_T: DesignDampingInterval
+
+
 class Study(Section):
     """Ranges of the figures."""
 
@@ -210,6 +233,8 @@ class Study(Section):
     curve_entry: CurveEntryStudy
     evolution_tendency: EvolutionTendencyStudy
     tendency_maps: TendencyMapsStudy
+    wheelset_designs: WheelsetDesignsStudy
+    bogie_designs: BogieDesignsStudy
 
 
 def named_uniquely(variants: tuple[AbsorberVariant, ...]) -> tuple[AbsorberVariant, ...]:
@@ -339,6 +364,15 @@ class FrequencyResponseNumerics(Section):
     points: Whole = quantity("frequencies", "-", 10, 1000000)
 
 
+class WheelsetDesignsNumerics(Section):
+    """Grid of the wheelset's absorber designs."""
+
+    c_T_points: Whole = quantity("stiffnesses of the absorber", "-", 2, 200)
+    d_T_points: Whole = quantity("dampings of the absorber", "-", 2, 200)
+    frequency_points: Whole = quantity("frequencies", "-", 10, 10000)
+    map_points: Whole = quantity("grid points per axis of the stability maps", "-", 3, 201)
+
+
 class Numerics(Section):
     """Grids, orders and tolerances."""
 
@@ -358,6 +392,8 @@ class Numerics(Section):
     wear: WearNumerics
     evolution_tendency: EvolutionTendencyNumerics
     tendency_maps: TendencyMapsNumerics
+    wheelset_designs: WheelsetDesignsNumerics
+    bogie_designs: BogieDesignsNumerics
 
 
 def no_device(name: str) -> str:

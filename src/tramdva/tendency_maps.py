@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tramdva import evolution
-from tramdva.bogie import attached_absorbers
+from tramdva.attached_tendency import any_absorber
 from tramdva.bogie.curving import Equilibrium, System, equilibrium
 from tramdva.bogie.line import (
     BogieLine,
@@ -17,7 +17,7 @@ from tramdva.bogie.line import (
 )
 from tramdva.bogie.line import absorber as absorber_of
 from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
-from tramdva.evolution_stages import linear_response, wear_in_equilibrium, worn_wheels
+from tramdva.evolution_stages import linear_response, wear_in_equilibrium
 
 
 class _State(NamedTuple):
@@ -137,31 +137,13 @@ def _over_absorbers(cfg, known: _State, frequency: np.ndarray) -> dict[str, np.n
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    bogie, wheels = rough_bogie(known.system, known.equilibrium), worn_wheels(cfg)
-    rows = evolution.wear_rows(
-        bogie,
-        wear_in_equilibrium(cfg, bogie, known.system.contacts.law),
-        frequency,
-        known.line.track.speed,
-        known.line.bogie.wheel.radius,
-        cfg["out_of_roundness"]["wheels"],
-    )
-    output, direct = rows.output(wheels), rows.direct[:, wheels]
-    absorber = known.line.bogie.absorber
-    turn = 2.0 * np.pi * frequency
-    bare = attached_absorbers.receptances(
-        known.system, known.equilibrium, bogie, absorber, turn, rows.source
-    )
-    without = evolution.evolution_tendency(
-        np.einsum("fko,fo->fk", output, bare.local_by_wave) + direct
-    )
+    attached = any_absorber(cfg, known.line, known.system, known.equilibrium, frequency)
+    without = attached.without()
     near = (frequency >= study["design_band"]["min"]) & (frequency <= study["design_band"]["max"])
-    factors = np.empty((len(wheels), points, points))
+    factors = np.empty((without.shape[1], points, points))
     for i, d in enumerate(d_T):
         for j, c in enumerate(c_T):
-            response = attached_absorbers.attach(bare, absorber.I_T, c, d, output) + direct
-            tendency = evolution.evolution_tendency(response)
-            factors[:, i, j] = tendency[near].max(axis=0) / without[near].max(axis=0)
+            factors[:, i, j] = attached.tendency(c, d)[near].max(axis=0) / without[near].max(axis=0)
     return {
         "map_d_T": d_T,
         "map_c_T": c_T,

@@ -222,7 +222,11 @@ class AbsorberFamily(NamedTuple):
 def absorber_family(line: BogieLine, known: Running) -> AbsorberFamily:
     """Absorbers of the line in the curve."""
     design = line.bogie.absorber
-    run = changed(line, design, known)
+    return family_of(design, changed(line, design, known))
+
+
+def family_of(design: BogieAbsorber, run: Running) -> AbsorberFamily:
+    """Absorbers of any stiffness and damping from the vehicle that runs with one of them."""
     linear = linearise(run.curve, run.equilibrium.state)
     return AbsorberFamily(run.curve, design, linear.contact_jacobian)
 
