@@ -573,7 +573,13 @@ def test_edited_style_redraws_all_figures(completed: Path, code: Path, snakemake
 
     plan = summary(snakemake, completed, code=code)
 
-    assert plan == {"paper": set(FIGURES)}
+    assert plan == {"paper": set(FIGURES) - {"explorer"}}
+
+
+def test_edited_script_of_the_page_makes_it_anew(completed: Path, code: Path, snakemake) -> None:
+    append(code / "paper_figures/explorer.js", "\n// another word\n")
+
+    assert summary(snakemake, completed, code=code) == {"paper": {"explorer"}}
 
 
 def test_touch_comments_and_docstrings_rerun_nothing(
