@@ -352,7 +352,7 @@ def test_numbers_are_decimal(config_folder: Path, written: str) -> None:
 @pytest.mark.parametrize("case", WRONG_RUNS)
 def test_wrong_run(config_folder: Path, case: str) -> None:
     text, problem = WRONG_RUNS[case]
-    replace_in(config_folder / "config.yaml", "lines: [paper]", text)
+    replace_in(config_folder / "config.yaml", "lines: [paper, worn-40m]", text)
 
     assert f"config/config.yaml: {problem}" in problems(config_folder)
 
@@ -384,7 +384,7 @@ def test_all_problems_of_all_files_at_once(config_folder: Path) -> None:
         "(curve radius at the outer wheel)",
         f"config/lines/x.yaml: wheelset.c_A = 1: {C_A}",
         "config/lines/y.yaml: must be a map of keys (key: value), not a list",
-        "--config: lines[3] = z: there is no config/lines/z.yaml; there are: paper, x, y",
+        "--config: lines[3] = z: there is no config/lines/z.yaml; there are: paper, worn-40m, x, y",
     ]
 
 
