@@ -7,11 +7,17 @@ and `flag_meanings`; a truth is the flag `false true`.
 
 from __future__ import annotations
 
-from tramdva import bogie_variables, evolution_variables, wheelset_variables
+from tramdva import (
+    bogie_variables,
+    design_sheet_variables,
+    evolution_variables,
+    wheelset_variables,
+)
 from tramdva.result_variables import Stage
 
 STAGES: dict[str, Stage] = {
     **wheelset_variables.STAGES,
     **bogie_variables.STAGES,
     **evolution_variables.STAGES,
+    **design_sheet_variables.STAGES,
 }
