@@ -74,6 +74,8 @@ AROUND = {
     "inventory": {"config", "provenance", "results", "supervision"},
     "figures": {"results"},
     "tables": {"results"},
+    "sheet": set(),
+    "sheet_page": {"sheet"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {
