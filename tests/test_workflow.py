@@ -434,7 +434,7 @@ def test_wear_hardness_reruns_no_simulation(completed: Path, snakemake) -> None:
 
     plan = summary(snakemake, completed, "--config", "lines=[x]")
 
-    assert plan["x"] == with_downstream({"wear", "tendency_maps"})
+    assert plan["x"] == with_downstream({"wear", "tendency_maps", "robustness_sample"})
     assert not plan["x"] & {"bogie_simulation", "bogie_linearisation", "curving_equilibrium"}
 
 

@@ -11,7 +11,6 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from tramdva import bogie_parameters
 from tramdva.bogie_parameters import GREATEST_CHORD_ANGLE, Bogie, ContactGeometry, Track
 from tramdva.bogie_study import (
     BogieModesNumerics,
@@ -259,25 +258,6 @@ class Line(Section):
             raise ValueError(
                 f"bogie.half_wheelbase/track.radius = {chord:.3g} must be at most "
                 f"{GREATEST_CHORD_ANGLE:g} (small angles; the contact tables end beyond)"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _ranges_passable(self) -> Self:
-        ranges, track = self.study.design_sheet.conditions, self.track
-        radius, speed = ranges.radius.min * track.radius, ranges.speed.max * track.speed
-        chord = self.bogie.half_wheelbase / radius
-        if chord > GREATEST_CHORD_ANGLE:
-            raise ValueError(
-                f"bogie.half_wheelbase over the smallest radius of study.design_sheet, "
-                f"{chord:.3g}, must be at most {GREATEST_CHORD_ANGLE:g}"
-            )
-        acceleration = speed**2 / radius - track.gravity * track.cant
-        if acceleration > bogie_parameters.GREATEST_LATERAL_ACCELERATION:
-            raise ValueError(
-                f"the largest speed on the smallest radius of study.design_sheet gives "
-                f"{acceleration:.3g} m/s^2; at most "
-                f"{bogie_parameters.GREATEST_LATERAL_ACCELERATION:g} m/s^2 are allowed"
             )
         return self
 

@@ -162,7 +162,10 @@ def recommendation(cfg, tuning) -> str:
     band = cfg["study"]["design_band"]
     where = f"{band['min']:g} and {band['max']:g} Hz"
     if status == "nothing_grows":
-        return f"No absorber is needed: between {where} no order grows in any of the conditions."
+        words = f"between {where} no order grows in any of the conditions"
+        if (tuning["growth_rate"][NONE, :, 1] >= 0.0).any():
+            return f"No tuning: {words}; against self-excitation see the map of the bogie."
+        return f"No absorber is needed: {words}, and none vibrates by itself."
     units = unit_names(cfg)
     if not np.isfinite(tuning["c_T"][ROBUST]):
         return "No recommendation: with every absorber some condition vibrates by itself."
@@ -436,9 +439,9 @@ def notes(cfg, tuning) -> list[str]:
         f"Evolution tendency at B = {cfg['forced_excitation']['B']:g} s/m (times its "
         f"share), self-excitation at the operating B, between {study['frequency']['min']:g} "
         f"and {study['frequency']['max']:g} Hz. All is linear about the steady running: "
-        "loads are proportional to the wave's amplitude, which is no longer true beyond some "
-        "20 µm. Loads are the largest in the band, at orders that need not be whole; first as "
-        "configured, then the largest of the conditions that count.",
+        "loads are proportional to the wave's amplitude, with absorbers within a few per cent up "
+        "to some 20 µm. Loads are the largest in the band, at orders that need not be whole; first "
+        "as configured, then the largest of the conditions that count.",
         GYRATION.format(1e3 * study["gyration_radius"]) if turns else TRANSLATION,
         "Every value that is assumed is marked ASSUME in the configuration. Absolute growth per "
         "revolution is not credible (the wear chart is dry); factors are.",
