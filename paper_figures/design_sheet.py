@@ -271,7 +271,7 @@ def draw_map(axes: Axes, tuning: dict[str, np.ndarray], cfg: dict) -> None:
 
 def draw_ranges(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
     """Draw what the robust optimum leaves when one range alone is at its ends."""
-    axes.set_title("robust optimum, one range alone at its ends", fontsize="medium")
+    axes.set_title("robust optimum, single ranges", fontsize="medium")
     nominal = tuning["nominal_factor"][ROBUST]
     if not np.isfinite(nominal):
         figures.nothing(axes, "no optimum")

@@ -173,12 +173,19 @@ def test_tolerance_ends_where_the_factor_exceeds_its_share():
     quiet = Criterion(one, reference, np.ones(1, bool), ((1.0, 1.0),), lambda case, design: -1.0)
     c_T, d_T = np.linspace(0.02, 0.12, 15), np.linspace(0.001, 0.012, 15)
     best, _ = robust_criterion.optimum(quiet, c_T, d_T, [])
-    band = robust_criterion.tolerance(quiet, best, 0.1, c_T, d_T)
+    band = robust_criterion.tolerance(quiet, best, 0.1, c_T, d_T, [])
 
     for end in band[0]:
         assert quiet.worst((end, best.design[1])) == pytest.approx(1.1 * best.factor, rel=2e-3)
     assert band[0, 0] < best.design[0] < band[0, 1]
     assert np.isnan(band[1, 1])  # beyond the grid
+
+    # A case that begins to vibrate by itself ends the band as well.
+    end = best.design[0] + 0.3 * (band[0, 1] - best.design[0])
+    restless = quiet._replace(growth=lambda case, design: design[0] - end)
+    narrow = robust_criterion.tolerance(restless, best, 0.1, c_T, d_T, [0])
+    assert narrow[0, 1] == pytest.approx(end, rel=1e-3)
+    assert narrow[0, 0] == pytest.approx(band[0, 0], rel=1e-3)
 
 
 def test_references_are_never_below_the_line_as_configured():

@@ -26,6 +26,7 @@ Shares = tuple[Any, Any]
 _ROUNDS = 8  # of the search, each with the cases in which the design before was self-excited
 _COARSE = 5  # designs per axis among which one without self-excitation is sought
 _SCAN = 41  # designs of a line on which the end of a tolerance is sought
+_NEAREST = 20  # cases in which self-excitation is looked for there
 
 
 class Fleet(NamedTuple):
@@ -264,21 +265,39 @@ def _searched(
 
 
 def tolerance(
-    criterion: Criterion, best: Optimum, share: float, c_T: np.ndarray, d_T: np.ndarray
+    criterion: Criterion,
+    best: Optimum,
+    share: float,
+    c_T: np.ndarray,
+    d_T: np.ndarray,
+    suspects: Sequence[int],
 ) -> np.ndarray:
     """Interval (2, 2) of c_T and of d_T alone in which the factor is at most 1 + share of the best.
 
-    NaN where it does not end within the grid.
+    And in which no case that counts becomes self-excited, the absorber's own ranges left out: of
+    the suspects, the `_NEAREST` with the largest growth rates are looked at. NaN where the
+    interval does not end within the grid.
     """
     out = np.full((2, 2), np.nan)
     if not np.isfinite(best.factor):
         return out
     allowed = best.factor + share * abs(best.factor)
+    own = criterion.corners[:1]
+    rates = {
+        row: criterion.growth(int(criterion.fleet.case[row]), best.design)
+        for row in suspects
+        if criterion.counted[row]
+    }
+    # A case that is self-excited at the best design itself tells nothing of its surroundings.
+    nearest = [row for row in sorted(rates, key=rates.get) if rates[row] < 0.0][-_NEAREST:]
     for k, axis in enumerate((c_T, d_T)):
 
         def excess(value: float, k: int = k) -> float:
             design = (value, best.design[1]) if k == 0 else (best.design[0], value)
-            return criterion.worst(design) - allowed
+            over = criterion.worst(design) - allowed
+            if over <= 0.0 and any(criterion.self_excited(row, design, own) for row in nearest):
+                return allowed
+            return over
 
         for end, limit in enumerate((axis[0], axis[-1])):
             out[k, end] = _crossing(excess, best.design[k], float(limit))

@@ -68,8 +68,9 @@ def robust_tuning(
         return common | _without_nominal(cfg, sample, c_T.size, d_T.size)
     nominal, robust = _criteria(cfg, sample, whole)
     restless = sample["bare_growth_rate"][whole.case, OPERATING] >= 0.0
-    at_nominal, nominal_map = optimum(nominal, c_T, d_T, np.flatnonzero(restless[:1]))
-    at_all, robust_map = optimum(robust, c_T, d_T, np.flatnonzero(restless))
+    suspects = [np.flatnonzero(restless[:1]), np.flatnonzero(restless)]
+    at_nominal, nominal_map = optimum(nominal, c_T, d_T, suspects[0])
+    at_all, robust_map = optimum(robust, c_T, d_T, suspects[1])
     robust = robust._replace(counted=at_all.counted)
     designs = [None, (absorber["c_T"], absorber["d_T"]), at_nominal.design, at_all.design]
     growth = _growth_rates(cfg, sample, designs)
@@ -81,13 +82,13 @@ def robust_tuning(
         "map_worst_factor": robust_map,
         **_design_values(cfg, designs),
         "counted": np.isin(sample["case"], sample["case"][whole.case[at_all.counted]]),
-        **_factors(cfg, sample, designs, nominal, robust, np.flatnonzero(restless)),
+        **_factors(cfg, sample, designs, nominal, robust, suspects[1]),
         "tolerance": np.array(
             [
                 np.full((2, 2), np.nan),
                 np.full((2, 2), np.nan),
-                tolerance(nominal, at_nominal, study["tolerance"], c_T, d_T),
-                tolerance(robust, at_all, study["tolerance"], c_T, d_T),
+                tolerance(nominal, at_nominal, study["tolerance"], c_T, d_T, suspects[0]),
+                tolerance(robust, at_all, study["tolerance"], c_T, d_T, suspects[1]),
             ]
         ),
         **_peak_factors(cfg, sample, whole, designs),

@@ -430,7 +430,8 @@ def notes(cfg, tuning) -> list[str]:
         "condition, or as configured if that is larger. The worst case includes all ends of the "
         "absorber's own stiffness and damping. Tolerance band: factor at most "
         f"{percent(study['tolerance'])} above its best (nominal optimum: as configured; robust: "
-        "in the worst case) when one value alone moves; open: beyond the range that was searched.",
+        "in the worst case) and no condition self-excited, when one value alone moves; open: "
+        "beyond the range that was searched.",
         f"Conditions that do not count in the worst case, since they vibrate by themselves with "
         f"every absorber: {dropped} of {len(there)}. A self-excited condition has no factor and no "
         "load; the share of such conditions is told above. Where only the bogie without absorbers "
