@@ -231,7 +231,7 @@ def test_ranges_of_whole_numbers(orders, words):
 @pytest.mark.parametrize(
     ("value", "words"),
     [(0.0, "0"), (1.74e5, "1.74·10⁵"), (9.996, "10.0"), (-17.3, "−17.3"), (np.nan, "–"),
-     (392.4, "392"), (2e-5, "2.00·10⁻⁵"), (0.0780, "0.0780"), (1234.0, "1234")],
+     (392.4, "392"), (-2e-5, "−2.00·10⁻⁵"), (0.0780, "0.0780"), (1234.0, "1234")],
 )  # fmt: skip
 def test_numbers_in_words(value, words):
     assert sheet.number(value) == words

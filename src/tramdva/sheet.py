@@ -64,7 +64,7 @@ def number(value: float, digits: int = 3) -> str:
         return "0"
     if not 1e-3 <= abs(value) < 1e5:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-        return f"{mantissa}·10{_raised(int(exponent))}"
+        return f"{mantissa.replace('-', '−')}·10{_raised(int(exponent))}"
     size = int(np.floor(np.log10(abs(float(f"{value:.{digits - 1}e}")))))
     return f"{value:.{max(digits - 1 - size, 0)}f}".replace("-", "−")
 

@@ -14,11 +14,11 @@ PAGE = """<!DOCTYPE html>
 <meta charset="utf-8">
 <title>{title}</title>
 <style>
-body {{ font: 14px/1.45 sans-serif; background: white; color: black; max-width: 62em;
+body {{ font: 14px/1.45 sans-serif; background: white; color: black; max-width: 68em;
   margin: 1em auto; padding: 0 1em; }}
 h1 {{ font-size: 1.5em; }} h2 {{ font-size: 1.15em; margin-top: 1.6em; }}
 table {{ border-collapse: collapse; border-top: 2px solid; border-bottom: 2px solid; }}
-th, td {{ padding: 0.2em 0.8em; text-align: right; white-space: pre-wrap; }}
+th, td {{ padding: 0.2em 0.8em; text-align: right; white-space: pre; }}
 th:first-child, td:first-child {{ text-align: left; }}
 thead th {{ border-bottom: 1px solid; vertical-align: bottom; }}
 img {{ width: 100%; }}
