@@ -25,6 +25,7 @@ ABSORBERS = {
     name: line.study.evolution_tendency.absorbers
     for name, line in configuration.lines.items()
 }
+PARTS = range(configuration.run.numerics.robustness_sample.parts)
 values = partial(stage, configuration)
 use_numba_cache()
 if workflow.is_main_process:
@@ -47,6 +48,7 @@ wildcard_constraints:
     line="|".join(LINES),
     absorber="none|paper|tuned",
     order="[0-9]+",
+    part="[0-9]+",
 
 
 onstart:
@@ -87,12 +89,14 @@ STAGES = [
     "tendency_maps",
     "wheelset_designs",
     "bogie_designs",
+    "robust_tuning",
 ]
 PER_ABSORBER = "results/{line}/bogie_linearisation/{absorber}.nc"
 PER_ORDER = [
     "results/{line}/bogie_simulation/{absorber}/order_{order}.nc",
     "results/{line}/wear/{absorber}/order_{order}.nc",
 ]
+PER_PART = "results/{line}/robustness_sample/part_{part}.nc"
 PICTURES = [
     "fig02_stability_map",
     "fig03_bifurcation_diagram",
@@ -112,6 +116,7 @@ PICTURES = [
 ]
 TABLES = ["table2_absorber_designs", "table_absorber_effect"]
 EXPLORER = [FIGURES / f"explorer.{kind}" for kind in ("html", "css", "js")]
+SHEET = ["pdf", "html"]
 
 
 rule all:
@@ -119,11 +124,13 @@ rule all:
         expand("results/{line}/{stage}.nc", line=LINES, stage=STAGES),
         [expand(PER_ABSORBER, line=x, absorber=ABSORBERS[x]) for x in LINES],
         [expand(PER_ORDER, line=x, absorber=ABSORBERS[x], order=ORDERS) for x in LINES],
+        expand(PER_PART, line=LINES, part=PARTS),
         expand("paper_figures/{line}/{figure}.pdf", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{figure}.png", line=LINES, figure=PICTURES),
         expand("paper_figures/{line}/{table}.csv", line=LINES, table=TABLES),
         expand("paper_figures/{line}/{table}.html", line=LINES, table=TABLES),
         expand("paper_figures/{line}/explorer.html", line=LINES),
+        expand("paper_figures/{line}/design_sheet.{kind}", line=LINES, kind=SHEET),
     message:
         "all numbers, figures and tables"
 
@@ -498,6 +505,44 @@ rule bogie_designs:
         "{wildcards.line}: the bogie with any absorber"
     script:
         "workflow/scripts/bogie_designs.py"
+
+
+rule robustness_sample:
+    input:
+        contact_geometry=rules.contact_geometry.output[0],
+    output:
+        PER_PART,
+    log:
+        "logs/{line}/robustness_sample/part_{part}.log",
+    benchmark:
+        "logs/{line}/robustness_sample/part_{part}.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "robustness_sample"),
+        code=code_hash(SCRIPTS / "robustness_sample.py"),
+    message:
+        "{wildcards.line}: bogie under varied conditions, part {wildcards.part}"
+    script:
+        "workflow/scripts/robustness_sample.py"
+
+
+rule robust_tuning:
+    input:
+        robustness_sample=lambda w: expand(PER_PART, line=w.line, part=PARTS),
+    output:
+        "results/{line}/robust_tuning.nc",
+    log:
+        "logs/{line}/robust_tuning.log",
+    benchmark:
+        "logs/{line}/robust_tuning.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "robust_tuning"),
+        code=code_hash(SCRIPTS / "robust_tuning.py"),
+    message:
+        "{wildcards.line}: nominal and robust optimum of the absorber"
+    script:
+        "workflow/scripts/robust_tuning.py"
 
 
 rule fig02_stability_map:
@@ -952,3 +997,31 @@ rule explorer:
         "{wildcards.line}: explorer of absorber designs"
     script:
         "paper_figures/explorer.py"
+
+
+rule design_sheet:
+    input:
+        stability_map=rules.stability_map.output[0],
+        bogie_modes=rules.bogie_modes.output[0],
+        tendency_maps=rules.tendency_maps.output[0],
+        robust_tuning=rules.robust_tuning.output[0],
+    output:
+        pdf="paper_figures/{line}/design_sheet.pdf",
+        html=report(
+            "paper_figures/{line}/design_sheet.html",
+            category="Design sheet",
+            caption="workflow/report/design_sheet.rst",
+            labels={"line": "{line}", "shows": "Design sheet"},
+        ),
+    log:
+        "logs/{line}/design_sheet.log",
+    benchmark:
+        "logs/{line}/design_sheet.tsv"
+    threads: 1
+    params:
+        cfg=lambda w: values(w.line, "design_sheet"),
+        code=code_hash(FIGURES / "design_sheet.py", STYLE),
+    message:
+        "{wildcards.line}: design sheet of the absorber"
+    script:
+        "paper_figures/design_sheet.py"

@@ -14,7 +14,7 @@ from numba.core.dispatcher import Dispatcher
 from wheelset_lines import paper
 
 import tramdva
-from tramdva import config, evolution_stages, warm_up
+from tramdva import config, evolution_stages, robust_tuning, robustness_sample, warm_up
 from tramdva.bogie import line, simulation_stage, stages
 from tramdva.self_excitation import solve_hopf_point
 from tramdva.stability import growth_rate
@@ -29,6 +29,8 @@ CHANGES = {
         "bogie_simulation": {"samples": 128, "revolutions": 1},
         "wear": {"wear_cells_along": 8, "wear_strips": 8},
         "evolution_tendency": {"frequency_points": 50},
+        "robustness_sample": {"samples": 2, "parts": 10},
+        "robust_tuning": {"map_points": 3},
     }
 }
 
@@ -84,6 +86,8 @@ def wheel_wear() -> None:
     cfg = values["evolution_tendency"]
     cfg["study"]["absorbers"] = ["none"]
     evolution_stages.evolution_tendency(cfg, {"none": linear}, {"none": [worn]})
+    part = robustness_sample.robustness_sample(values["robustness_sample"], tables, 0)
+    robust_tuning.robust_tuning(values["robust_tuning"], [part])
 
 
 if __name__ == "__main__":

@@ -36,15 +36,24 @@ LAYERS = [
     {"evolution"},
     {"evolution_stages"},
     {"attached_tendency"},
-    {"tendency_maps", "bogie_designs"},
+    {"tendency_maps", "bogie_designs", "robustness_sample"},
+    {"robust_criterion"},
+    {"robust_tuning"},
     {"warm_up"},
 ]
 # What the pipeline uses around the model, and what each may know.
 AROUND = {
     "__init__": set(),
-    "parameters": {"bogie_parameters", "bogie_study", "evolution_study", "quantities"},
+    "parameters": {
+        "bogie_parameters",
+        "bogie_study",
+        "design_sheet_study",
+        "evolution_study",
+        "quantities",
+    },
     "bogie_study": {"quantities"},
     "evolution_study": {"bogie_study", "quantities"},
+    "design_sheet_study": {"quantities"},
     "result_variables": set(),
     "wheelset_variables": {"result_variables"},
     "bogie_variables": {"result_variables"},
@@ -55,8 +64,10 @@ AROUND = {
         "result_variables",
         "wheelset_variables",
     },
+    "design_sheet_variables": {"bogie_variables", "result_variables"},
     "registry": {
         "bogie_variables",
+        "design_sheet_variables",
         "design_variables",
         "evolution_variables",
         "result_variables",
@@ -84,6 +95,8 @@ AROUND = {
     "packing": set(),
     "web_plots": set(),
     "web_page": {"packing"},
+    "sheet": set(),
+    "sheet_page": {"sheet"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {

@@ -36,6 +36,7 @@ PER_JOB = {
     "bogie_linearisation": "{absorber}.nc",
     "bogie_simulation": "{absorber}/order_{order}.nc",
     "wear": "{absorber}/order_{order}.nc",
+    "robustness_sample": "part_{part}.nc",
 }
 QUICK = ("--configfile", "config/quick.yaml")
 
@@ -45,6 +46,9 @@ def files_of(stage: str, root: Path) -> dict[str, str]:
     if stage not in PER_JOB:
         return {f"{stage}.nc": stage}
     numerics = load_or_exit(root / "config", [root / "config/quick.yaml"], {}).run.numerics
+    if stage == "robustness_sample":
+        parts = range(numerics.robustness_sample.parts)
+        return {f"{stage}/{PER_JOB[stage].format(part=part)}": stage for part in parts}
     return {
         f"{stage}/{PER_JOB[stage].format(absorber=absorber, order=order)}": (
             f"{stage}_{absorber}" if stage == "bogie_linearisation" else stage

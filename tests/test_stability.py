@@ -25,6 +25,10 @@ def test_the_baseline_is_barely_unstable_at_48_hertz():
 def test_critical_friction_decrease():
     critical = brentq(lambda B: growth(B=B), 0.4, 0.7, xtol=1e-10)
     assert_allclose(critical, 0.68005, atol=5e-6)  # digits given by the source
+    assert_allclose(stability.critical_friction_decrease(paper(), False), critical, rtol=1e-6)
+    quiet, rough = paper(mu_0=0.05), paper(d_A=-1e5)
+    assert np.isnan(stability.critical_friction_decrease(quiet, False))
+    assert stability.critical_friction_decrease(rough, False) == 0.0
 
 
 def test_variants_of_figure_2():

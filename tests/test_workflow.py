@@ -62,6 +62,9 @@ UPSTREAM = {
     "table_absorber_effect": ["evolution_tendency"],
     "bogie_designs": ["contact_geometry"],
     "explorer": ["wheelset_designs", "bogie_designs"],
+    "robustness_sample": ["contact_geometry"],
+    "robust_tuning": ["robustness_sample"],
+    "design_sheet": ["stability_map", "bogie_modes", "tendency_maps", "robust_tuning"],
 }
 # Inputs that the paper's line has none of.
 IDLE = {("bogie_linearisation", "curving_equilibrium")}
@@ -75,6 +78,7 @@ FIGURES = [
     "order_speed_chart",
     "tendency_design_chart",
     "explorer",
+    "design_sheet",
 ]
 RULES = {
     "stability_map",
@@ -85,11 +89,12 @@ RULES = {
     *UPSTREAM,
 }
 PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
-ABSORBERS, ORDERS = ("none", "paper"), (26, 27)
+ABSORBERS, ORDERS, PARTS = ("none", "paper"), (26, 27), range(8)
 BOGIE = ["curving_equilibrium", "bogie_modes", "curve_entry"]
-ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps", "bogie_designs"]
-WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency"]
+ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps", "bogie_designs", "robustness_sample"]
+WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency", "robust_tuning"]
 BASIC = [stage for stage in STAGES if stage not in {"contact_geometry", *BOGIE, *WHEELS}]
+WORN = ["wear", "evolution_tendency", "tendency_maps", "bogie_designs", "robustness_sample"]
 WITH_VARIANTS = ["stability_map", "hopf_points", "limit_cycles"]
 WITH_CRITICAL_CURVE = ["hopf_curves", "critical_hopf_curve", "cycle_amplitudes", "absorber_tuning"]
 
@@ -98,11 +103,20 @@ USERS = {
     "label": FIGURES,
     "curve": BASIC,
     "creep_force": BASIC,
-    **{f"creep_force.{name}": [*BASIC, *BOGIE, *ROUGH_BOGIE] for name in ("mu_0", "A")},
-    "creep_force.B": [*BASIC, *BOGIE, "bogie_designs", "bogie_stability", "explorer"],
+    "creep_force.A": [*BASIC, *BOGIE, *ROUGH_BOGIE],
+    "creep_force.mu_0": [*BASIC, *BOGIE, *ROUGH_BOGIE, "design_sheet"],
+    "creep_force.B": [
+        *BASIC,
+        *BOGIE,
+        "bogie_designs",
+        "bogie_stability",
+        "explorer",
+        "robustness_sample",
+        "design_sheet",
+    ],
     "wheelset": BASIC,
-    "track": [*BOGIE, *ROUGH_BOGIE],
-    "track.speed": [*BOGIE, *ROUGH_BOGIE, "campbell_chart"],
+    "track": [*BOGIE, *ROUGH_BOGIE, "design_sheet"],
+    "track.speed": [*BOGIE, *ROUGH_BOGIE, "campbell_chart", "design_sheet"],
     "bogie": [*BOGIE, *ROUGH_BOGIE, "fig08_bogie"],
     "bogie.absorber.motion": [
         *BOGIE,
@@ -111,7 +125,23 @@ USERS = {
         "bogie_stability",
         "tendency_design_chart",
         "explorer",
+        "robust_tuning",
+        "design_sheet",
     ],
+    "bogie.car_body.mass": [*BOGIE, *ROUGH_BOGIE, "fig08_bogie", "design_sheet"],
+    "bogie.absorber": [*BOGIE, *ROUGH_BOGIE, "fig08_bogie", "robust_tuning", "design_sheet"],
+    **{
+        f"bogie.absorber.{name}": [
+            *BOGIE,
+            "bogie_linearisation",
+            "tendency_maps",
+            "bogie_designs",
+            "fig08_bogie",
+            "robust_tuning",
+            "design_sheet",
+        ]
+        for name in ("c_T", "d_T")
+    },
     "bogie.wheel.radius": [
         "contact_geometry",
         *BOGIE,
@@ -120,6 +150,8 @@ USERS = {
         "bogie_mode_shapes",
         "campbell_chart",
         "order_speed_chart",
+        "robust_tuning",
+        "design_sheet",
     ],
     "contact_geometry": ["contact_geometry", *BOGIE, *ROUGH_BOGIE],
     "out_of_roundness": ["bogie_simulation"],
@@ -128,28 +160,50 @@ USERS = {
         "evolution_tendency",
         "tendency_maps",
         "bogie_designs",
+        "robustness_sample",
     ],
-    "wear": ["wear", "evolution_tendency", "tendency_maps", "bogie_designs"],
+    "wear": WORN,
     "study.evolution_tendency": ["evolution_tendency", "tendency_maps"],
     "study.evolution_tendency.frequency": [
         "evolution_tendency",
         "tendency_maps",
         "bogie_designs",
     ],
+    "study.evolution_tendency.peaks": [
+        "evolution_tendency",
+        "tendency_maps",
+        "robustness_sample",
+        "robust_tuning",
+    ],
     "study.tendency_maps": ["tendency_maps"],
+    "study.tendency_maps.c_T": ["tendency_maps", "robust_tuning"],
+    "study.tendency_maps.d_T": ["tendency_maps", "robust_tuning"],
+    "study.design_sheet": ["robust_tuning", "design_sheet"],
+    "study.design_sheet.conditions": ["robustness_sample", "robust_tuning", "design_sheet"],
+    "study.design_sheet.rubber": ["robustness_sample", "robust_tuning", "design_sheet"],
     "study.tendency_maps.design_band": [
         "tendency_maps",
         "tendency_design_chart",
         "worn_wheels",
         "bogie_designs",
         "explorer",
+        "robustness_sample",
+        "robust_tuning",
+        "design_sheet",
     ],
     "study.bogie_modes": ["bogie_modes"],
-    "study.bogie_modes.frequency": ["curving_equilibrium", "bogie_modes"],
+    "study.bogie_modes.B_max": ["bogie_modes", "design_sheet"],
+    "study.bogie_modes.frequency": [
+        "curving_equilibrium",
+        "bogie_modes",
+        "robustness_sample",
+        "robust_tuning",
+        "design_sheet",
+    ],
     "study.curve_entry": ["curve_entry"],
     "study.curve_entry.entry": ["curve_entry", "fig09_curve_entry"],
     "numerics.bogie": [*BOGIE, *ROUGH_BOGIE],
-    "numerics.wear": ["wear", "evolution_tendency", "tendency_maps", "bogie_designs"],
+    "numerics.wear": WORN,
     "wheelset.c_A": [
         "stability_map",
         "cycle_amplitudes",
@@ -170,6 +224,7 @@ USERS = {
         "wheelset_designs",
         *ROUGH_BOGIE,
         "explorer",
+        "design_sheet",
     ],
     "absorber_variants": WITH_VARIANTS,
     "absorber_variants.name": [
@@ -225,6 +280,10 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
 def files_of(rule: str, line: str) -> list[str]:
     if rule == "bogie_linearisation":
         return [f"results/{line}/{rule}/{absorber}.nc" for absorber in ABSORBERS]
+    if rule == "robustness_sample":
+        return [f"results/{line}/{rule}/part_{part}.nc" for part in PARTS]
+    if rule == "design_sheet":
+        return [f"paper_figures/{line}/{rule}.{kind}" for kind in ("pdf", "html")]
     if rule in PER_JOB:
         jobs = [(absorber, order) for absorber in ABSORBERS for order in ORDERS]
         return [f"results/{line}/{rule}/{absorber}/order_{order}.nc" for absorber, order in jobs]
@@ -497,6 +556,7 @@ def test_wear_hardness_reruns_no_simulation(completed: Path, snakemake) -> None:
     plan = summary(snakemake, completed, "--config", "lines=[x]")
 
     assert plan["x"] == with_downstream({"wear", "tendency_maps", "bogie_designs"})
+    assert plan["x"] == with_downstream({"wear", "tendency_maps", "robustness_sample"})
     assert not plan["x"] & {"bogie_simulation", "bogie_linearisation", "curving_equilibrium"}
 
 
@@ -627,6 +687,8 @@ def test_catalog_finds_the_same_jobs(root: Path, tmp_path: Path, snakemake) -> N
     orders = loaded.run.numerics.evolution_tendency.orders.listed()
     many = {"bogie_linearisation": 2, "bogie_simulation": 2 * len(orders), "wear": 2 * len(orders)}
     expected = {rule: str(len(loaded.lines) * many.get(rule, 1)) for rule in RULES}
+    many["robustness_sample"] = len(PARTS)
+    expected = {rule: str(many.get(rule, 1)) for rule in RULES}
     assert tables[0] == tables[1] == expected
 
 

@@ -63,7 +63,7 @@ def any_absorber(
         bogie,
         wear_in_equilibrium(cfg, bogie, system.contacts.law),
         frequency,
-        line.track.speed,
+        system.contacts.places.speed,
         line.bogie.wheel.radius,
         cfg["out_of_roundness"]["wheels"],
     )

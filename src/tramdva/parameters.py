@@ -20,6 +20,11 @@ from tramdva.bogie_study import (
     CurveEntryNumerics,
     CurveEntryStudy,
 )
+from tramdva.design_sheet_study import (
+    DesignSheetStudy,
+    RobustnessSampleNumerics,
+    RobustTuningNumerics,
+)
 from tramdva.evolution_study import (
     BogieDesignsNumerics,
     BogieDesignsStudy,
@@ -235,6 +240,7 @@ class Study(Section):
     tendency_maps: TendencyMapsStudy
     wheelset_designs: WheelsetDesignsStudy
     bogie_designs: BogieDesignsStudy
+    design_sheet: DesignSheetStudy
 
 
 def named_uniquely(variants: tuple[AbsorberVariant, ...]) -> tuple[AbsorberVariant, ...]:
@@ -394,6 +400,8 @@ class Numerics(Section):
     tendency_maps: TendencyMapsNumerics
     wheelset_designs: WheelsetDesignsNumerics
     bogie_designs: BogieDesignsNumerics
+    robustness_sample: RobustnessSampleNumerics
+    robust_tuning: RobustTuningNumerics
 
 
 def no_device(name: str) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from tramdva import (
     bogie_variables,
+    design_sheet_variables,
     design_variables,
     evolution_variables,
     wheelset_variables,
@@ -20,4 +21,5 @@ STAGES: dict[str, Stage] = {
     **bogie_variables.STAGES,
     **evolution_variables.STAGES,
     **design_variables.STAGES,
+    **design_sheet_variables.STAGES,
 }

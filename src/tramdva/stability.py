@@ -17,6 +17,7 @@ STABLE, OSCILLATORY, MONOTONE, NO_EQUILIBRIUM = 0, 1, 2, 3
 
 # Coefficients are formed with the time in ms: in s they span thirty decades.
 _TIME = 1e-3
+GREATEST_B = 20.0  # s/m, as the configuration allows
 
 
 def leading_eigenvalues(values: WheelsetParameters, with_absorber: bool) -> np.ndarray:
@@ -181,7 +182,27 @@ def stability_map(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
         "baseline_growth_rate": np.stack(lines),
         "baseline_c_A": baseline.c_A,
         "baseline_c_R": baseline.c_R,
+        "baseline_critical_B": critical_friction_decrease(baseline, False),
     }
+
+
+def critical_friction_decrease(values: WheelsetParameters, with_absorber: bool) -> float:
+    """Smallest friction decrease B in s/m with self-excitation, to 1e-6 of its value.
+
+    Zero where the wheelset is unstable without any decrease; NaN where it is stable up to
+    `GREATEST_B`, or where there is no equilibrium.
+    """
+    low, high = 0.0, GREATEST_B
+    for _ in range(4):  # each look at the first change of sign is fifty times closer
+        decrease = np.linspace(low, high, 401 if low == 0.0 else 51)
+        growth = growth_rate(values._replace(B=decrease), with_absorber)
+        excited = np.flatnonzero(growth >= 0.0)
+        if not excited.size:
+            return float("nan")
+        if excited[0] == 0:
+            return float(decrease[0])
+        low, high = decrease[excited[0] - 1], decrease[excited[0]]
+    return float(0.5 * (low + high))
 
 
 def absorber_variants(cfg: Mapping[str, Any]) -> list[tuple[str, float, float]]:

@@ -1,31 +1,17 @@
 """The stage `tendency_maps`: evolution tendency over speed, curve radius and absorber."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tramdva import evolution
 from tramdva.attached_tendency import any_absorber
-from tramdva.bogie.curving import Equilibrium, System, equilibrium
-from tramdva.bogie.line import (
-    BogieLine,
-    quiet_bogie_line,
-    run_through,
-    systems,
-    transferred,
-)
+from tramdva.bogie.conditions import State, as_configured, reached
 from tramdva.bogie.line import absorber as absorber_of
+from tramdva.bogie.line import quiet_bogie_line, run_through
 from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
 from tramdva.evolution_stages import linear_response, wear_in_equilibrium
-
-
-class _State(NamedTuple):
-    """A vehicle in a curve."""
-
-    line: BogieLine
-    system: System
-    equilibrium: Equilibrium
 
 
 def tendency_maps(
@@ -47,8 +33,7 @@ def tendency_maps(
     """
     study, numerics = cfg["study"], cfg["numerics"]
     line = quiet_bogie_line(cfg, contact_geometry)
-    none = run_through(line, numerics["curvature_steps"])
-    known = _State(line, none.curve, none.equilibrium)
+    known = as_configured(line, run_through(line, numerics["curvature_steps"]))
     frequency = np.linspace(
         study["frequency"]["min"], study["frequency"]["max"], numerics["frequency_points"]
     )
@@ -76,7 +61,7 @@ def tendency_maps(
     }
 
 
-def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str, np.ndarray]:
+def _over(cfg, known: State, designs, name: str, values, frequency) -> dict[str, np.ndarray]:
     """Tendency (absorber, wheel, value, f) over values of a field of the track.
 
     From the line's own value upwards and downwards, each start from its neighbour.
@@ -85,21 +70,23 @@ def _over(cfg, known: _State, designs, name: str, values, frequency) -> dict[str
     tendency = np.full((len(absorbers), len(wheels), values.size, frequency.size), np.nan)
     growth = np.full((len(absorbers), values.size), np.nan)
     status = np.full((len(absorbers), values.size), "not_converged", dtype="U20")
-    own = int(np.argmin(np.abs(values - getattr(known.line.track, name))))
+    shares = values / getattr(known.line.track, name)
+    own = int(np.argmin(np.abs(shares - 1.0)))
     for i, absorber in enumerate(absorbers):
         design = absorber_of(known.line, *designs[absorber][1:])
         for way in (range(own, values.size), range(own - 1, -1, -1)):
             state = known
             for k in way:
-                state = _reached(state, design, name, float(values[k]))
+                conditions = state.conditions._replace(**{name: float(shares[k])})
+                state = reached(state, conditions, design)
                 status[i, k] = state.equilibrium.status
                 if state.equilibrium.status != "converged":
                     break
                 bogie = rough_bogie(state.system, state.equilibrium)
                 growth[i, k] = _growth_rate(bogie, cfg["study"]["design_band"])
                 worn = wear_in_equilibrium(cfg, bogie, state.system.contacts.law)
-                track, wheel = state.line.track, state.line.bogie.wheel
-                response = linear_response(cfg, bogie, worn, frequency, track.speed, wheel.radius)
+                places, radius = state.system.contacts.places, state.line.bogie.wheel.radius
+                response = linear_response(cfg, bogie, worn, frequency, places.speed, radius)
                 tendency[i, :, k] = evolution.evolution_tendency(response)
     return {"tendency": tendency, "growth_rate": growth, "status": status}
 
@@ -112,27 +99,7 @@ def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
     return float(value.real[inside].max()) if inside.any() else np.nan
 
 
-def _reached(known: _State, design, name: str, value: float, halvings: int = 4) -> _State:
-    """Equilibrium at another value of a field of the track, by way of values between if need be."""
-    state = _changed(known, design, {name: value})
-    if state.equilibrium.status == "converged" or halvings == 0:
-        return state
-    middle = float(np.sqrt(value * getattr(known.line.track, name)))
-    between = _reached(known, design, name, middle, halvings - 1)
-    if between.equilibrium.status != "converged":
-        return state
-    return _reached(between, design, name, value, halvings - 1)
-
-
-def _changed(known: _State, design, track: Mapping[str, float]) -> _State:
-    """Equilibrium on another track, from a known one."""
-    line = known.line._replace(track=known.line.track.model_copy(update=track))
-    (system,) = systems(line, design, (1.0,))
-    start = transferred(known.system, known.equilibrium, system)
-    return _State(line, system, equilibrium(system, start))
-
-
-def _over_absorbers(cfg, known: _State, frequency: np.ndarray) -> dict[str, np.ndarray]:
+def _over_absorbers(cfg, known: State, frequency: np.ndarray) -> dict[str, np.ndarray]:
     """Largest tendency in the band of design with an absorber over that without."""
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)

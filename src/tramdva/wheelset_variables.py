@@ -55,6 +55,9 @@ STAGES: dict[str, Stage] = {
             ),
             "baseline_c_A": real("", "N/m", f"{_AXLE}, baseline"),
             "baseline_c_R": real("", "N/m", "stiffness of the resilient wheel, baseline"),
+            "baseline_critical_B": real(
+                "", "s/m", "B where self-excitation begins without absorber, NaN if nowhere"
+            ),
         },
     ),
     "hopf_points": Stage(
