@@ -63,6 +63,9 @@ AROUND = {
     "inventory": {"config", "provenance", "results", "supervision"},
     "figures": {"results"},
     "tables": {"results"},
+    "run_record": set(),
+    "crate": {"results", "run_record"},
+    "archive": {"crate", "results", "run_record"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {
@@ -77,6 +80,9 @@ TOUCH_THE_DISK = {
     "job",
     "supervision",
     "inventory",
+    "run_record",
+    "crate",
+    "archive",
 }
 
 
