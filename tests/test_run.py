@@ -48,7 +48,7 @@ def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleTy
         (["report"], ["snakemake", "--report", "report.html"]),
         (["crate", "-j1"], ["python", "-m", "tramdva.crate", "-j1"]),
         (["archive"], ["python", "-m", "tramdva.archive"]),
-        (["docs"], ["sphinx-build", "-W", "--keep-going", "docs", "docs/_build/html"]),
+        (["docs", "-q"], ["sphinx-build", "-W", "--keep-going", "-q", "docs", "docs/_build/html"]),
         (["results/paper/test"], ["snakemake", "-j2", "results/paper/test"]),
     ],
 )

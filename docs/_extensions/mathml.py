@@ -3,13 +3,16 @@
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+from sphinx.util import logging
 from sphinx.util.math import get_node_equation_number
 from sphinx.writers.html5 import HTML5Translator
+
+logger = logging.getLogger(__name__)
 
 
 def inline(translator: HTML5Translator, node: nodes.math) -> None:
     """Write a formula in a line of text."""
-    translator.body.append(convert(node.astext()))
+    translator.body.append(converted(node, "inline"))
     raise nodes.SkipNode
 
 
@@ -18,11 +21,17 @@ def block(translator: HTML5Translator, node: nodes.math_block) -> None:
     translator.body.append(translator.starttag(node, "div", CLASS="math"))
     if node["number"]:
         number = get_node_equation_number(translator, node)
-        translator.body.append(f'<span class="eqno">({number})')
-        translator.add_permalink_ref(node, "Link to this equation")
-        translator.body.append("</span>")
-    translator.body.append(convert(node.astext(), display="block") + "</div>\n")
+        translator.body.append(f'<span class="eqno">({number})</span>')
+    translator.body.append(converted(node, "block") + "</div>\n")
     raise nodes.SkipNode
+
+
+def converted(node: nodes.Element, display: str) -> str:
+    """Return a formula as MathML; the converter leaves unknown commands as they are."""
+    mathml = convert(node.astext().strip(), display=display)
+    if "\\" in mathml or ">&<" in mathml:
+        logger.warning("formula with an unknown command: %s", node.astext(), location=node)
+    return mathml
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
