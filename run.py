@@ -4,6 +4,9 @@
     python3 run.py [...]         all figures and numbers; arguments go to snakemake
     python3 run.py test [...]    the tests; arguments go to pytest
     python3 run.py report        report.html with the figures that exist
+    python3 run.py crate [...]   ro-crate-metadata.json: where each figure and number comes from
+    python3 run.py archive [...] a .tar.gz of sources, results and crate that runs elsewhere
+    python3 run.py docs          the documentation as pages in docs/_build/html
     python3 run.py setup         only set up
 
 The environment is .venv beside this file. `. .venv/bin/activate` and then `snakemake -j2` is
@@ -56,6 +59,10 @@ def command(arguments: list[str]) -> list[str]:
         return ["pytest", *arguments[1:]]
     if arguments[:1] == ["report"]:
         return ["snakemake", "--report", "report.html", *arguments[1:]]
+    if arguments[:1] in (["crate"], ["archive"]):
+        return ["python", "-m", f"tramdva.{arguments[0]}", *arguments[1:]]
+    if arguments[:1] == ["docs"]:
+        return ["sphinx-build", "-W", "--keep-going", *arguments[1:], "docs", "docs/_build/html"]
     cores = re.compile(r"(-j|--jobs|-c|--cores)(=?\d+|=?all)?")
     if any(cores.fullmatch(argument) for argument in arguments):
         return ["snakemake", *arguments]

@@ -97,6 +97,9 @@ AROUND = {
     "web_page": {"packing"},
     "sheet": set(),
     "sheet_page": {"sheet"},
+    "run_record": set(),
+    "crate": {"results", "run_record"},
+    "archive": {"crate", "results", "run_record"},
 }
 READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
 TOUCH_THE_DISK = {
@@ -113,6 +116,9 @@ TOUCH_THE_DISK = {
     "job",
     "supervision",
     "inventory",
+    "run_record",
+    "crate",
+    "archive",
 }
 
 

@@ -46,6 +46,9 @@ def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleTy
         (["test"], ["pytest"]),
         (["test", "-k", "hopf"], ["pytest", "-k", "hopf"]),
         (["report"], ["snakemake", "--report", "report.html"]),
+        (["crate", "-j1"], ["python", "-m", "tramdva.crate", "-j1"]),
+        (["archive"], ["python", "-m", "tramdva.archive"]),
+        (["docs", "-q"], ["sphinx-build", "-W", "--keep-going", "-q", "docs", "docs/_build/html"]),
         (["results/paper/test"], ["snakemake", "-j2", "results/paper/test"]),
     ],
 )

@@ -2,12 +2,12 @@
 
 With radius deviation Re R_n exp(i n theta) (crest positive) and wear depth Re W_n exp(i n theta)
 per revolution (removed material positive) at the same material point, H_n = W_n / R_n is the wear
-response. The evolution tendency (17) of Peng's method,
+response. The evolution tendency (17) of Peng's method, ::
 
     -cos(arg H_n) |H_n| = -Re H_n,
 
-is positive where more is removed in the troughs: the order grows, by d ln|R_n| per revolution; the
-polygon drifts around the wheel at arg-rate -Im H_n.
+is positive where more is removed in the troughs: the order grows, by ``d ln|R_n|`` per revolution;
+the polygon drifts around the wheel at arg-rate -Im H_n.
 """
 
 from collections.abc import Sequence

@@ -1,7 +1,7 @@
 """KTH wear of one wheel passage: the wear chart of Jendel and Archard's law per cell.
 
-A point of the wheel that crosses the patch slides |s| dx in every cell of length dx (|s|: slip
-velocity over rolling speed) and loses the depth (Archard)
+A point of the wheel that crosses the patch slides ``|s| dx`` in every cell of length dx (``|s|``:
+slip velocity over rolling speed) and loses the depth (Archard)::
 
     dz = k(p, v) p |s| dx / H,      v = |s| V,
 

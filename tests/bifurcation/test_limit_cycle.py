@@ -72,6 +72,22 @@ def test_stuart_landau_amplitude_period_and_floquet_exponent():
         assert cycle.stable
 
 
+def test_orbit_between_two_orbits_of_the_branch():
+    # r = sqrt(mu) in the normal form, whichever way the orbit is sought
+    system = normal_form(lambda p: p[0], ("mu",), omega=2.0, cubic=-1.0, shear=0.4)
+    curve, branch = branch_from(system, [0, 0], [0.01], "mu", (-1.0, 1.0))
+    before, after = branch.points[2:4]
+    mu = 0.5 * (before.parameters[0] + after.parameters[0])
+
+    found = curve.between(before, after, mu)
+
+    assert_allclose(found.parameters[0], mu, rtol=1e-12)
+    assert_allclose(amplitude(found), np.sqrt(mu), rtol=2e-7)
+    assert_allclose(found.period, 2 * np.pi / (2 + 0.4 * mu), rtol=1e-9)
+    beyond = 2.0 * after.parameters[0] - before.parameters[0]
+    assert curve.between(before, after, beyond) is None
+
+
 def test_van_der_pol_period_and_amplitude():
     # period and amplitude of the equation at mu = 1 to 14 digits (Amore 2016; in x / sqrt(mu))
     curve, branch = branch_from(van_der_pol(), [0, 0], [0.01], "mu", (-1, 1.2), intervals=60)

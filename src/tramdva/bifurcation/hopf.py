@@ -232,7 +232,7 @@ def first_lyapunov_coefficients(
     Returns
     -------
     (len(points),) array
-        l_1 = Re(c_1) / omega of the normal form z' = i omega z + c_1 z |z|^2.
+        ``l_1 = Re(c_1) / omega`` of the normal form ``z' = i omega z + c_1 z |z|^2``.
 
     Notes
     -----

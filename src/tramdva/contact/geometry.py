@@ -39,8 +39,8 @@ class ContactTable(NamedTuple):
     first, step : (3,) arrays, node 0 and spacing of shift in m, roll in rad, tan(yaw)^2
     low, high : (3,) arrays, range of validity
     wheel_radius : m, at the profile's origin
-    shear : m, shift of the table per tan(yaw)^2; it follows the flank of a yawed wheel, which
-        comes forward by R tan(delta) tan(yaw)^2 / 2
+    shear : m, shift of the table per tan(yaw)^2: the flank of a yawed wheel comes forward by
+    R tan(delta) tan(yaw)^2 / 2
     """
 
     coefficients: np.ndarray

@@ -39,7 +39,8 @@ def polach_forces(
 
     Notes
     -----
-    With nu_yc = nu_y + phi a where |nu_y + phi a| > |nu_y|, else nu_y, and nu_c = |(nu_x, nu_yc)|::
+    With ``nu_yc = nu_y + phi a`` where ``|nu_y + phi a| > |nu_y|``, else ``nu_y``, and
+    ``nu_c = |(nu_x, nu_yc)|``::
 
         F   = (2 mu N / pi) (k_A e / (1 + (k_A e)^2) + atan(k_S e))
         e   = G pi a b c_jj nu_c / (4 mu N)
