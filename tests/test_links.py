@@ -15,14 +15,12 @@ HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 NAMED = re.compile(r"`((?:src|docs|tests|config|workflow|benchmarks|profiles|\.ci)/[\w./-]+)`")
 BUILT = {"docs/reference/modules/modules.rst", "docs/_build/html"}
 OF_A_READER = {"config/lines/harbour.yaml", "config/lines/dresden.yaml"}
-PAGES = [
-    ROOT / "README.md",
-    ROOT / "CHANGELOG.md",
-    ROOT / "config/README.md",
-    ROOT / "tests/reference/README.md",
-    *sorted((ROOT / "docs").glob("*.md")),
-    *sorted((ROOT / "docs/reference").glob("*.md")),
-]
+FOLDERS = ("config", "docs", "tests", "benchmarks", "workflow")
+PAGES = sorted(
+    page
+    for page in (*ROOT.glob("*.md"), *(p for name in FOLDERS for p in (ROOT / name).rglob("*.md")))
+    if "_build" not in page.parts
+)
 
 
 def anchor(heading: str) -> str:
