@@ -9,6 +9,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```.*?^```$|`[^`\n]+`", re.MULTILINE | re.DOTALL)
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 # Paths in code that prose names. Those with a wildcard or a placeholder are left out.
@@ -37,7 +38,7 @@ def broken(page: Path, target: str) -> str:
     if not path.exists() and path.relative_to(ROOT).as_posix() not in BUILT:
         return "no such file"
     if parts.fragment:
-        headings = HEADING.findall(CODE.sub("", path.read_text(encoding="utf-8")))
+        headings = HEADING.findall(FENCED.sub("", path.read_text(encoding="utf-8")))
         return "" if parts.fragment in map(anchor, headings) else "no such heading"
     return ""
 

@@ -159,12 +159,12 @@ def test_reached_modules_are_those_that_python_loads(root: Path) -> None:
         assert reached == set(loaded) - provenance.WITHOUT_EFFECT, script
 
 
-def test_all_scripts_are_hashed_in_a_second(root: Path) -> None:
+def test_all_scripts_are_hashed_in_two_seconds(root: Path) -> None:
     scripts = [*root.glob("workflow/scripts/*.py"), *root.glob("paper_figures/*.py")]
     start = time.process_time()
     hashes = {code_hash(script) for script in scripts}
 
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < 2.0  # each start of snakemake waits for it
     assert len(hashes) == len(scripts)
 
 

@@ -16,6 +16,7 @@ import pytest
 
 from tramdva import (
     bogie_variables,
+    design_sheet_variables,
     design_variables,
     evolution_variables,
     results,
@@ -127,7 +128,13 @@ def test_registry_names_all_it_needs() -> None:
 
 
 def test_each_stage_stands_in_one_table() -> None:
-    tables = (wheelset_variables, bogie_variables, evolution_variables, design_variables)
+    tables = (
+        wheelset_variables,
+        bogie_variables,
+        evolution_variables,
+        design_variables,
+        design_sheet_variables,
+    )
 
     assert len(STAGES) == sum(len(table.STAGES) for table in tables)
 

@@ -34,23 +34,23 @@ STAGES: dict[str, Stage] = {
             "status": flag("case", CASE_STATUS, "status of the equilibria"),
             "speed": real("case", "m/s", "speed of the vehicle"),
             "unsprung_mass": real("", "kg", "axle with its wheels as configured"),
-            "frequency": real("case frequency", "Hz", "frequency"),
+            "frequency": real("case node", "Hz", "frequency"),
             "bare_growth_rate": real(
                 "case friction", "s-1", "largest growth rate without absorbers"
             ),
-            **_complex("wear_by_wave", "case frequency wheel", "1", "wear response to waves"),
+            **_complex("wear_by_wave", "case node wheel", "1", "wear response to waves"),
             **_complex(
                 "wear_by_force",
-                "case frequency wheel place",
+                "case node wheel place",
                 "(N m)-1 m",
                 "wear by torques (forces) of the absorbers",
             ),
             **_complex(
-                "place_by_wave", "case frequency place", "rad/m", "motion of their places by waves"
+                "place_by_wave", "case node place", "rad/m", "motion of their places by waves"
             ),
             **_complex(
                 "place_by_force",
-                "case frequency place other_place",
+                "case node place other_place",
                 "rad/(N m)",
                 "motion of their places by torques (forces) there",
             ),

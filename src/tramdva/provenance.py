@@ -13,9 +13,10 @@ import time
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import NamedTuple
 
 PACKAGE = Path(__file__).parent
-RESULT_TABLE = re.compile(r"tramdva\.\w+_variables")  # only the entry of the stage counts
+RESULT_TABLE = "_variables"  # end of the names of modules of which only the stage's entry counts
 WITHOUT_EFFECT = frozenset(
     {"tramdva.job", "tramdva.supervision"}
 )  # modules that cannot change a result
@@ -46,7 +47,7 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     script = Path(script)
     digest = hashlib.sha256(_tree_hash(script))
     for name in sorted(reached_modules(script, package)):
-        stage = script.stem if RESULT_TABLE.fullmatch(name) else ""
+        stage = script.stem if name.endswith(RESULT_TABLE) else ""
         digest.update(name.encode() + _tree_hash(_file(name, package), stage))
     for path in data:
         digest.update(Path(path).read_bytes())
@@ -165,21 +166,38 @@ def _file(module: str, package: Path) -> Path:
 
 
 def _absolute_imports(path: Path) -> tuple[str, ...]:
-    status = path.stat()
-    return _parsed(path, status.st_mtime_ns, status.st_size, "")[0]
+    return _parsed_now(path).imports
 
 
 def _tree_hash(path: Path, stage: str = "") -> bytes:
+    """Hash a file; of a table of result variables, with a stage, only the entry of this stage."""
+    parsed = _parsed_now(path)
+    entries = [parsed.entries.get(stage, b"")] if stage else parsed.entries.values()
+    return b"".join([parsed.rest, *entries])
+
+
+class _Parsed(NamedTuple):
+    """Modules of tramdva that a file imports; hashes of its syntax tree.
+
+    entries : of a table of result variables, by stage; rest : of everything else
+    """
+
+    imports: tuple[str, ...]
+    rest: bytes
+    entries: dict[str, bytes]
+
+
+def _parsed_now(path: Path) -> _Parsed:
     status = path.stat()
-    return _parsed(path, status.st_mtime_ns, status.st_size, stage)[1]
+    return _parsed(path, status.st_mtime_ns, status.st_size)
 
 
 @functools.cache
-def _parsed(path: Path, mtime_ns: int, size: int, stage: str) -> tuple[tuple[str, ...], bytes]:
-    """Return the modules of tramdva that a file imports and the hash of its syntax tree."""
+def _parsed(path: Path, mtime_ns: int, size: int) -> _Parsed:
     tree = ast.parse(path.read_bytes(), filename=str(path))
     imports: list[str] = []
-    for node in ast.walk(tree):
+    _drop_docstring(tree)
+    for node in _statements(tree):
         _drop_docstring(node)
         if isinstance(node, ast.Import):
             imports += [alias.name for alias in node.names]
@@ -187,10 +205,21 @@ def _parsed(path: Path, mtime_ns: int, size: int, stage: str) -> tuple[tuple[str
             if node.level:
                 raise ValueError(f"{path}: line {node.lineno}: relative imports are not followed")
             imports += [f"{node.module}.{alias.name}" for alias in node.names]
-    if stage:
-        _keep_entry(tree, stage)
+    entries = _taken_entries(tree) if path.stem.endswith(RESULT_TABLE) else {}
     own = tuple(name for name in imports if name.split(".")[0] == "tramdva")
-    return own, hashlib.sha256(ast.dump(tree).encode()).digest()
+    return _Parsed(own, _digest(tree), {key: _digest(value) for key, value in entries.items()})
+
+
+def _digest(tree: ast.AST) -> bytes:
+    return hashlib.sha256(ast.dump(tree).encode()).digest()
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield all statements below a node; expressions, which are far more, are passed over."""
+    for block in ("body", "orelse", "handlers", "finalbody", "cases"):
+        for statement in getattr(node, block, ()):
+            yield statement
+            yield from _statements(statement)
 
 
 def _drop_docstring(node: ast.AST) -> None:
@@ -199,14 +228,12 @@ def _drop_docstring(node: ast.AST) -> None:
         node.body = node.body[1:]
 
 
-def _keep_entry(tree: ast.Module, stage: str) -> None:
-    """Drop the entries of other stages from a table STAGES of result variables."""
+def _taken_entries(tree: ast.Module) -> dict[str, ast.expr]:
+    """Take the entries out of the table STAGES of result variables."""
+    taken: dict[str, ast.expr] = {}
     for node in tree.body:
         if isinstance(node, ast.AnnAssign) and getattr(node.target, "id", "") == "STAGES":
             table = node.value
-            kept = [
-                (key, value)
-                for key, value in zip(table.keys, table.values, strict=True)
-                if key.value == stage
-            ]
-            table.keys, table.values = [k for k, _ in kept], [v for _, v in kept]
+            taken |= {key.value: value for key, value in zip(table.keys, table.values, strict=True)}
+            table.keys, table.values = [], []
+    return taken
