@@ -227,7 +227,7 @@ def draw_peaks(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
             for k in known(tuning)
         ],
         fontsize="x-small",
-        loc="upper left",
+        loc="lower left",
         title="mark: as configured",
         title_fontsize="x-small",
     )
