@@ -155,7 +155,7 @@ def areas(kinds: set[str]) -> list[Artist]:
     }
     shown = [look for kind, look in looks.items() if kind in kinds]
     patches = [Patch(facecolor=grey, edgecolor="black", label=words) for grey, words in shown]
-    return [*patches, figures.key("line's absorber (Table 2)", **STAR)]
+    return [*patches, figures.key("line's absorber", **STAR)]
 
 
 if __name__ == "__main__":

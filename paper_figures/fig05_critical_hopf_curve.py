@@ -65,7 +65,7 @@ def draw_plane(axes: Axes, cfg: dict, critical: dict[str, np.ndarray]) -> list[A
         entries.setdefault(look["label"], figures.key(**look))
     axes.plot(cfg["absorber"]["d_T"] / KILO, cfg["absorber"]["c_T"] / MEGA, **STAR)
     known = [entries[label] for label in sorted(entries)]
-    return [*known, figures.key("line's absorber (Table 2)", **STAR)]
+    return [*known, figures.key("line's absorber", **STAR)]
 
 
 def safe_corners(critical: dict[str, np.ndarray]) -> list[tuple[float, float]]:
