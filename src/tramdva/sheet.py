@@ -237,8 +237,7 @@ def absorber_table(cfg, tuning) -> Table:
         ),
         row("dissipated power of one (W): as configured, worst", load("dissipated_power", 1.0)),
         row(
-            f"motion of the axle ({unit}); bare: "
-            f"{_load(tuning, 'carrier_amplitude', NONE, 1e3)}",
+            f"motion of the axle ({unit}); bare: {_load(tuning, 'carrier_amplitude', NONE, 1e3)}",
             load("carrier_amplitude", 1e3),
         ),
         row(
