@@ -43,7 +43,7 @@ def draw(tendency: dict[str, np.ndarray]) -> Figure:
         title = str(wheel).replace("_", " ")
         whole.set_title(f"{title} wheel", fontsize="medium")
         detail.set_title(f"{title} wheel, detail", fontsize="medium")
-        whole.set_ylabel("evolution tendency\n(1: largest without absorber)")
+        whole.set_ylabel("evolution tendency\n(1: largest at an order)")
     for axes in panels[-1]:
         axes.set_xlabel("frequency (Hz)")
     figures.legend_below(figure, legend(tendency), 2)
@@ -85,7 +85,7 @@ def label_peaks(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
         height = tendency["peak_tendency"][none, row, k] / scale
         if not height > 0.03:
             continue
-        words = f"{tendency['peak_frequency'][none, row, k]:.0f} Hz"
+        words = f"{tendency['peak_frequency'][none, row, k]:.0f}"
         axes.annotate(
             words,
             (tendency["peak_frequency"][none, row, k], height),

@@ -105,7 +105,7 @@ def style():
 def test_tendency_names_its_peaks_and_absorbers(style, absorbers):
     figure = script("fig10_evolution_tendency").draw(evolution_tendency(absorbers))
     said = drawn_texts(figure)
-    for words in ("55 Hz", "73 Hz", "117 Hz", "front outer wheel", "no absorber, linearised"):
+    for words in ("\n55\n", "\n73\n", "\n117\n", "front outer wheel", "no absorber, linearised"):
         assert words in said
     assert ("line's absorber" in said) == ("paper" in absorbers)
     panel = figure.axes[0]
