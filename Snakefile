@@ -35,12 +35,6 @@ if supervision.enter_folder(as_job=not workflow.is_main_process):
     inventory.set_aside_unusable(configuration, SCRIPTS)
 
 
-def measured(line, what):
-    """Path of a line's measured file; no input where it has none."""
-    files = configuration.measured[line]
-    return files[what].path if what in files else []
-
-
 report: "workflow/report/workflow.rst"
 
 
@@ -284,9 +278,6 @@ rule frequency_response:
 
 
 rule contact_geometry:
-    input:
-        measured_wheel=lambda w: measured(w.line, "wheel"),
-        measured_rail=lambda w: measured(w.line, "rail"),
     output:
         "results/{line}/contact_geometry.nc",
     log:
@@ -389,7 +380,6 @@ rule bogie_simulation:
     input:
         contact_geometry=rules.contact_geometry.output[0],
         bogie_linearisation=rules.bogie_linearisation.output[0],
-        measured=lambda w: measured(w.line, "out_of_roundness"),
     output:
         PER_ORDER[0],
     log:

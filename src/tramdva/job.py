@@ -51,6 +51,29 @@ def logging_to(path: str | Path) -> Iterator[None]:
             sys.stderr.flush()
 
 
+def configuration_file(name: str, scriptdir: str) -> Path:
+    """Find a file that a line names, in the folder of the run's configuration.
+
+    It is no input of its rule, whose path would differ where results are moved or the code lies
+    elsewhere: the hash of its content is among the parameters.
+
+    Parameters
+    ----------
+    name : str
+        Relative to the folder.
+    scriptdir : str
+        Folder of the scripts, `workflow/scripts`.
+
+    Returns
+    -------
+    Path
+        In `config` of the working directory if there is a configuration, else beside the code.
+    """
+    own = Path("config")
+    folder = own if (own / "config.yaml").is_file() else Path(scriptdir).parents[1] / "config"
+    return folder / name
+
+
 def _opened(path: Path) -> IO[str]:
     try:
         return path.open("w", buffering=1, encoding="utf-8")

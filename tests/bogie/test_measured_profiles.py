@@ -11,7 +11,7 @@ from tramdva.bogie import modes, running
 from tramdva.bogie.curving import angle_of_attack, wheel_loads
 from tramdva.contact import geometry, patch
 from tramdva.contact.measured_profile import measured_profile
-from tramdva.contact.profiles import Profile
+from tramdva.contact.profiles import Profile, ProfileError
 
 # Per noise in m: tolerances of the angle of attack (rad), wheel loads (N), contact angle (rad) of
 # loaded contacts, frequency (Hz) and growth rate (1/s) of the modes of the front axle.
@@ -143,3 +143,12 @@ def test_groove_and_keeper_of_a_rail_are_left_out(pair, tmp_path):
     assert found.position[0] > points[0, 0] * 1e-3 - 0.5e-3
     inner = pair["rail"].position[200:-50]
     np.testing.assert_allclose(found.depth_at(inner), pair["rail"].depth_at(inner), atol=1e-6)
+
+
+def test_wall_beside_the_origin_is_refused(tmp_path):
+    y = np.linspace(-30.0, 30.0, 301)
+    z = 5e-4 * y**2 + 0.05 * np.clip(-20.0 - y, 0.0, None) ** 2 + 20.0 * (y > 3.0)
+    path = tmp_path / "wall.csv"
+    np.savetxt(path, np.column_stack([y, z]), "%.4f", ",")
+    with pytest.raises(ProfileError, match="upright or turns back within 8 mm"):
+        measured_profile(path, "rail", 0.0)

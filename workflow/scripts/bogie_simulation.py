@@ -13,15 +13,16 @@ def main(
     order: int,
     contact_geometry: str,
     bogie_linearisation: str,
-    measured: str | None,
+    scriptdir: str,
 ) -> None:
     """Simulate whole revolutions."""
+    measured = cfg["out_of_roundness"]["measured"]
     values = simulation_stage.bogie_simulation(
         cfg,
         order,
         results.read(contact_geometry),
         results.read(bogie_linearisation),
-        read_measurement(measured) if measured else None,
+        read_measurement(job.configuration_file(measured, scriptdir)) if measured else None,
     )
     results.save(output, "bogie_simulation", values, parameters=cfg, code=code)
 
@@ -35,5 +36,5 @@ if __name__ == "__main__":
             order=int(snakemake.wildcards.order),
             contact_geometry=snakemake.input.contact_geometry,
             bogie_linearisation=snakemake.input.bogie_linearisation,
-            measured=snakemake.input.get("measured") or None,
+            scriptdir=snakemake.scriptdir,
         )

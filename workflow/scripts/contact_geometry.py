@@ -5,16 +5,14 @@ from tramdva.bogie import line
 from tramdva.contact.measured_profile import measured_profile
 
 
-def main(
-    *, output: str, code: str, cfg: dict, measured_wheel: str | None, measured_rail: str | None
-) -> None:
+def main(*, output: str, code: str, cfg: dict, scriptdir: str) -> None:
     """Compute the contact tables."""
-    files = {"wheel": measured_wheel, "rail": measured_rail}
-    profiles = {
-        kind: measured_profile(path, kind, cfg["contact_geometry"][kind]["measured_noise"])
-        for kind, path in files.items()
-        if path
-    }
+    profiles = {}
+    for kind in ("wheel", "rail"):
+        given = cfg["contact_geometry"][kind]
+        if given["measured"]:
+            path = job.configuration_file(given["measured"], scriptdir)
+            profiles[kind] = measured_profile(path, kind, given["measured_noise"])
     values = line.contact_geometry(cfg, **profiles)
     results.save(output, "contact_geometry", values, parameters=cfg, code=code)
 
@@ -25,6 +23,5 @@ if __name__ == "__main__":
             output=snakemake.output[0],
             code=snakemake.params.code,
             cfg=snakemake.params.cfg,
-            measured_wheel=snakemake.input.get("measured_wheel") or None,
-            measured_rail=snakemake.input.get("measured_rail") or None,
+            scriptdir=snakemake.scriptdir,
         )

@@ -163,21 +163,22 @@ def measured_profile(path: str | Path, kind: str, noise: float = 0.01e-3) -> Pro
     -----
     A cubic smoothing spline over the arc length of the points, position and depth each, with the
     penalty (of the second derivative) chosen by bisection so that the rms distance of spline and
-    points equals `noise`. What lies beyond parts steeper than 78 degrees is left out. Depths count
-    from that of a wheel at y = 0 and from a rail's highest point, wherever the file's z is zero.
+    points equals `noise`. What lies beyond parts that are steeper than 78 degrees or turn back is
+    left out. Depths count from that of a wheel at y = 0 and from a rail's highest point, wherever
+    the file's z is zero.
     """
     points = read_profile(path, kind) * MM
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     fine = np.linspace(0.0, arc[-1], max(2000, 20 * arc.size))
     y_spline, z_spline = _smooth(arc, points, noise)
     dy, dz = y_spline(fine, 1), z_spline(fine, 1)
-    if np.any(dy <= 0.0):
-        bad = float(y_spline(fine[np.argmax(dy <= 0.0)])) / MM
-        raise ProfileError(
-            f"{path}: the smoothed profile turns back near y = {bad:.2f} mm; cut undercut parts"
-        )
-    part = _around_the_origin(y_spline(fine), np.abs(dz / dy) <= STEEPEST)
+    part = _around_the_origin(y_spline(fine), (dy > 0.0) & (np.abs(dz) <= STEEPEST * dy))
     position, depth = y_spline(fine)[part], z_spline(fine)[part]
+    if position[0] > -REACH_MM * MM or position[-1] < REACH_MM * MM:
+        raise ProfileError(
+            f"{path}: the smoothed profile is upright or turns back within {REACH_MM:g} mm of "
+            "y = 0; smooth it more (measured_noise) or cut undercut parts"
+        )
     depth -= depth.min() if kind == "rail" else np.interp(0.0, position, depth)
     return resample(f"measured {Path(path).name}", kind, position, depth, (dz / dy)[part])
 
@@ -185,7 +186,7 @@ def measured_profile(path: str | Path, kind: str, noise: float = 0.01e-3) -> Pro
 def _around_the_origin(position, gentle):
     """The stretch of gentle slopes that holds the origin: no groove wall, no keeper."""
     steep = np.flatnonzero(~gentle)
-    origin = np.searchsorted(position, 0.0)
+    origin = np.argmin(np.abs(position))
     inner, outer = steep[steep < origin], steep[steep >= origin]
     return slice(inner[-1] + 1 if inner.size else 0, outer[0] if outer.size else None)
 
