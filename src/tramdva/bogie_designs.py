@@ -10,7 +10,7 @@ import numpy as np
 
 from tramdva import evolution
 from tramdva.attached_tendency import any_absorber
-from tramdva.bogie.curving import linearise
+from tramdva.bogie.curving import linearise, oscillations
 from tramdva.bogie.line import (
     BogieLine,
     Running,
@@ -81,9 +81,7 @@ def bogie_designs(
 
 def _excitation(matrix: np.ndarray, limits: Mapping[str, float]) -> _Excitation:
     """Least stable oscillation of a linearised vehicle with a frequency (Hz) within limits."""
-    values = np.linalg.eigvals(matrix)
-    frequency = values.imag / (2.0 * np.pi)
-    values = values[(frequency > limits["min"]) & (frequency < limits["max"])]
+    values = oscillations(np.linalg.eigvals(matrix), (limits["min"], limits["max"]))
     if not values.size:
         return _Excitation(np.nan, np.nan, "no_oscillation")
     top = values[np.argmax(values.real)]

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie.attached_absorbers import Receptances, dynamic_stiffness
-from tramdva.bogie.curving import Linearisation, System
+from tramdva.bogie.curving import Linearisation, System, oscillations
 from tramdva.bogie.vehicle import absorber_carriers
 
 ABSORBERS = 4
@@ -151,9 +151,7 @@ def motion(system: System, linear: Linearisation, absorber) -> Motion:
 
 def growth_rate(eigenvalue: np.ndarray, limits: tuple[float, float]) -> float:
     """Largest growth rate in 1/s of the oscillations within limits (Hz); -inf without any."""
-    frequency = eigenvalue.imag / (2.0 * np.pi)
-    inside = (frequency > limits[0]) & (frequency < limits[1])
-    return float(eigenvalue.real[inside].max(initial=-np.inf))
+    return float(oscillations(eigenvalue, limits).real.max(initial=-np.inf))
 
 
 def with_absorbers(bare: Motion, inertia: float, c_T: float, d_T: float) -> np.ndarray:

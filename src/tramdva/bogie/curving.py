@@ -228,3 +228,9 @@ def enter_curve(systems: list[System], start: np.ndarray, tolerance: float = 1e-
     for system in systems[:-1]:
         state = equilibrium(system, state, 1e-3, 60).state
     return equilibrium(systems[-1], state, tolerance)
+
+
+def oscillations(eigenvalue: np.ndarray, limits: tuple[float, float]) -> np.ndarray:
+    """Those of the eigenvalues (1/s) whose frequencies in Hz lie within limits."""
+    frequency = eigenvalue.imag / (2.0 * np.pi)
+    return eigenvalue[(frequency > limits[0]) & (frequency < limits[1])]

@@ -11,6 +11,7 @@ from tramdva.bogie.curving import (
     equilibrium,
     linearise,
     linearised,
+    oscillations,
     with_friction_decrease,
 )
 from tramdva.bogie.line import BogieLine, Running, changed
@@ -159,9 +160,7 @@ def critical_oscillation(
 
 def critical_of(linear: Linearisation, limits: tuple[float, float]) -> Critical:
     """Largest growth rate of the linearised vehicle's oscillations within limits (Hz)."""
-    values = np.linalg.eigvals(linear.matrix)
-    frequency = values.imag / (2.0 * np.pi)
-    values = values[(frequency > limits[0]) & (frequency < limits[1])]
+    values = oscillations(np.linalg.eigvals(linear.matrix), limits)
     top = values[np.argmax(values.real)]
     return Critical(float(top.real), float(top.imag / (2.0 * np.pi)))
 
