@@ -60,7 +60,7 @@ def command(arguments: list[str]) -> list[str]:
     if arguments[:1] == ["report"]:
         return ["snakemake", "--report", "report.html", *arguments[1:]]
     if arguments[:1] in (["crate"], ["archive"]):
-        return ["python", "-m", f"tramdva.{arguments[0]}", *arguments[1:]]
+        return ["python", "-m", f"tramdva.record.{arguments[0]}", *arguments[1:]]
     if arguments[:1] == ["docs"]:
         return ["sphinx-build", "-W", "--keep-going", *arguments[1:], "docs", "docs/_build/html"]
     cores = re.compile(r"(-j|--jobs|-c|--cores)(=?\d+|=?all)?")
@@ -85,7 +85,12 @@ def config_files(arguments: list[str]) -> list[str]:
 
 def check_data(files: list[str]) -> None:
     """Refuse configuration that is code: Snakemake would run it before anything is checked."""
-    if files and subprocess.run([BIN / "python", "-m", "tramdva.strict_yaml", *files]).returncode:
+    if (
+        files
+        and subprocess.run(
+            [BIN / "python", "-m", "tramdva.configuration.yaml_files", *files]
+        ).returncode
+    ):
         sys.exit(1)
 
 
@@ -140,7 +145,7 @@ def set_up() -> None:
 def compile_kernels() -> None:
     """Compile now what the first run would have to; a failure costs time later, nothing else."""
     program = (
-        "from tramdva.provenance import compile_kernels_once, use_numba_cache;"
+        "from tramdva.running.numba_cache import compile_kernels_once, use_numba_cache;"
         "use_numba_cache(); compile_kernels_once()"
     )
     subprocess.run([BIN / "python", "-c", program], capture_output=True, check=False)

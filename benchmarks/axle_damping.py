@@ -11,19 +11,22 @@ from pathlib import Path
 
 from scipy.optimize import brentq
 
-from tramdva import config
-from tramdva.bogie import line as bogie_line
 from tramdva.bogie import modes
+from tramdva.bogie import tram as bogie_line
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 
 
 def main(name: str, target: float) -> None:
     """Print the damping ratio and what it gives."""
-    configuration = config.load(CONFIG, overrides={"lines": [name]})
-    tables = bogie_line.contact_geometry(config.stage(configuration, name, "contact_geometry"))
-    cfg = config.stage(configuration, name, "bogie_modes")
-    line = bogie_line.bogie_line(cfg, tables)
+    configuration = load(CONFIG, overrides={"lines": [name]})
+    tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
+    cfg = used_values(configuration, name, "bogie_modes")
+    line = bogie_line(cfg, tables)
     known = bogie_line.run_through(line, cfg["numerics"]["curvature_steps"])
     limits = (cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"])
 

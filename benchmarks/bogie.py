@@ -11,10 +11,14 @@ from pathlib import Path
 import numpy as np
 from numba import njit
 
-from tramdva import config
-from tramdva.bogie import curve_entry, integration, modes, running
-from tramdva.bogie import line as bogie_line
-from tramdva.bogie.line import BogieLine, Running
+from tramdva.bogie import integration, modes, ride, wheel_forces
+from tramdva.bogie import tram as bogie_line
+from tramdva.bogie.modal import modal_basis
+from tramdva.bogie.tram import BogieLine, Running
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 
@@ -33,7 +37,7 @@ def seconds(work: Callable[[], object], repeat: int = 3) -> float:
 @njit(nogil=True, error_model="numpy")
 def _repeat(count, contacts, curvatures, local, deviation, rate, scratch, results, force):
     for _ in range(count):
-        running.all_wheel_forces(
+        wheel_forces.all_wheel_forces(
             contacts, curvatures, local, deviation, rate, scratch, results, force
         )
 
@@ -43,7 +47,7 @@ def contact_cost(known: Running) -> float:
     system = known.curve
     local = system.local(known.equilibrium.state)
     force, zero = np.empty(24), np.zeros((4, len(system.contacts.tables)))
-    scratch, results = running.workspace(system.contacts)
+    scratch, results = wheel_forces.workspace(system.contacts)
 
     arguments = (system.contacts, system.curvatures, local, zero, zero, scratch, results, force)
     return seconds(lambda: _repeat(20000, *arguments)) / 20000
@@ -51,9 +55,9 @@ def contact_cost(known: Running) -> float:
 
 def ride_cost(
     line: BogieLine, known: Running, numerics: dict, entry: float, duration: float
-) -> curve_entry.Ride:
+) -> ride.Ride:
     """Ride into the curve as figure 9 does it."""
-    route = curve_entry.Route(
+    route = ride.Route(
         bogie_line.track_line(line, entry * line.track.speed),
         line.track.speed,
         line.bogie.half_wheelbase,
@@ -61,7 +65,7 @@ def ride_cost(
         (known.straight, known.curve),
         (known.straight_equilibrium, known.equilibrium),
     )
-    return curve_entry.ride(
+    return ride.ride(
         route, duration, numerics["interval"], numerics["every"], numerics["tolerance"]
     )
 
@@ -69,7 +73,7 @@ def ride_cost(
 def damping_of_scheme(known: Running, limits: tuple[float, float], interval: float) -> float:
     """Growth rate of a small oscillation in the simulation less that of the eigenvalue, 1/s."""
     critical = modes.critical_oscillation(known.curve, known.equilibrium.state, limits)
-    basis = integration.modal_basis(known.curve, known.equilibrium)
+    basis = modal_basis(known.curve, known.equilibrium)
     z = np.zeros(2 * basis.eigenvalue.size)
     z[np.argmin(np.abs(basis.eigenvalue.imag / (2 * np.pi) - critical.frequency))] = 1e-4
     count = round(5.0 / interval)
@@ -78,7 +82,7 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
     integration.run(
         basis.contact, known.curve.contacts,
         integration.steady(basis.eigenvalue.size, known.curve.curvatures),
-        integration.no_excitation(basis, known.curve.contacts),
+        ride.no_excitation(basis, known.curve.contacts),
         integration.step_table(basis.eigenvalue, interval),
         interval, 1e9, 0, 0.0, z, integration.workspace(known.curve.contacts), local, results,
         np.array([1]), 1,
@@ -91,10 +95,10 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
 
 def main(name: str) -> None:
     """Print the speed in the curve and of figure 9, and the damping of the scheme."""
-    configuration = config.load(CONFIG, overrides={"lines": [name]})
-    tables = bogie_line.contact_geometry(config.stage(configuration, name, "contact_geometry"))
-    cfg = config.stage(configuration, name, "curve_entry")
-    line = bogie_line.bogie_line(cfg, tables)
+    configuration = load(CONFIG, overrides={"lines": [name]})
+    tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
+    cfg = used_values(configuration, name, "curve_entry")
+    line = bogie_line(cfg, tables)
     known = bogie_line.run_through(line, cfg["numerics"]["curvature_steps"])
     limits = (30.0, 200.0)
     per_call = contact_cost(known)

@@ -20,21 +20,21 @@ from typing import Any
 import numpy as np
 import yaml
 
-from tramdva import wheelset
 from tramdva.bifurcation import hopf
 from tramdva.bifurcation.continuation import StepControl
 from tramdva.bifurcation.limit_cycle import LimitCycleCurve, follow
-from tramdva.self_excitation import rim_velocity, solve_hopf_point
+from tramdva.wheelset import model
+from tramdva.wheelset.hopf import rim_velocity, solve_hopf_point
 
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 5
 AUTO_07P = {"limit cycles": 0.31 / 132, "Hopf curve": 0.07 / 412}
 
 
-def line() -> wheelset.WheelsetParameters:
+def line() -> model.WheelsetParameters:
     """The paper's line with its third absorber variant."""
     text = (ROOT / "config/lines/paper.yaml").read_text(encoding="utf-8")
-    return wheelset.wheelset_parameters(yaml.safe_load(text), c_A=6.2e7, c_T=2e7, d_T=7500.0)
+    return model.wheelset_parameters(yaml.safe_load(text), c_A=6.2e7, c_T=2e7, d_T=7500.0)
 
 
 def best_time(function: Callable[[], Any]) -> tuple[float, Any]:
@@ -48,9 +48,9 @@ def best_time(function: Callable[[], Any]) -> tuple[float, Any]:
     return min(times), result
 
 
-def ours(values: wheelset.WheelsetParameters) -> dict[str, tuple[float, int]]:
+def ours(values: model.WheelsetParameters) -> dict[str, tuple[float, int]]:
     """Time and number of points of both tasks."""
-    system = wheelset.dynamical_system(values, with_absorber=True)
+    system = model.dynamical_system(values, with_absorber=True)
     start = solve_hopf_point(values, True, "c_A").scaled
     curve = LimitCycleCurve(system, "c_A", parameter_scale=100.0)
     steps = StepControl(0.01, 1e-5, 0.0125, 400, comfortable_iterations=5)
@@ -90,9 +90,9 @@ done
 """
 
 
-def ode_file(p: wheelset.WheelsetParameters) -> str:
+def ode_file(p: model.WheelsetParameters) -> str:
     """The wheelset in mm, ms, kg for XPPAUT, with V_0 of one equilibrium."""
-    state = wheelset.equilibrium(p, with_absorber=True)
+    state = model.equilibrium(p, with_absorber=True)
     numbers = {
         "c_A": p.c_A * 1e-6,
         "c0": 1e-3 * p.Omega**2 * (p.r_C * np.cos(p.gamma) - p.L),
@@ -111,7 +111,7 @@ def ode_file(p: wheelset.WheelsetParameters) -> str:
     return ODE.format(**{name: f"{float(value):.15g}" for name, value in numbers.items()})
 
 
-def auto_of_xppaut(values: wheelset.WheelsetParameters) -> dict[str, tuple[float, int]]:
+def auto_of_xppaut(values: model.WheelsetParameters) -> dict[str, tuple[float, int]]:
     """Both tasks by the AUTO inside XPPAUT; empty where xpplab is not installed."""
     try:
         import xpplab

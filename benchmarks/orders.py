@@ -12,15 +12,18 @@ from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = "1"
 
-from tramdva.provenance import use_numba_cache
+from tramdva import results
+from tramdva.bogie.stored import stored_bogie
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import USES, used_values
+from tramdva.evolution.tendency import linear_wear_response, wear_sensitivity
+from tramdva.running.numba_cache import use_numba_cache
+from tramdva.stages import bogie_simulation
+from tramdva.stages.wear_sections import wear_chart, wear_grid
 
 use_numba_cache()
 
 import numpy as np
-
-from tramdva import config, evolution, evolution_stages, results
-from tramdva.bogie import simulation_stage
-from tramdva.bogie.rough_wheel_files import stored_bogie
 
 ROOT = Path(__file__).resolve().parents[1]
 ORDER = 26
@@ -62,16 +65,16 @@ def start_of_job(module: str) -> float:
 
 def main(folder: Path) -> None:
     """Print the times."""
-    loaded = config.load(ROOT / "config")
-    values = {name: config.stage(loaded, "paper", name) for name in config.STAGES}
+    loaded = load(ROOT / "config")
+    values = {name: used_values(loaded, "paper", name) for name in USES}
     tables = results.read(folder / "contact_geometry.nc")
     linear = results.read(folder / "bogie_linearisation/none.nc")
 
     def simulate() -> dict:
-        return simulation_stage.bogie_simulation(values["bogie_simulation"], ORDER, tables, linear)
+        return bogie_simulation.compute(values["bogie_simulation"], ORDER, tables, linear)
 
     def wear() -> dict:
-        return evolution_stages.wear(values["wear"], history)
+        return wear.compute(values["wear"], history)
 
     print(f"imports: simulation {start_of_job('bogie import simulation_stage'):.2f} s CPU, "
           f"wear {start_of_job('evolution_stages import wear'):.2f} s CPU")  # fmt: skip
@@ -85,12 +88,12 @@ def main(folder: Path) -> None:
     print(f"reading the contact tables: {reading:.3f} s")
     cfg, stored = values["evolution_tendency"], stored_bogie(linear)
     frequency = np.linspace(2.0, 150.0, cfg["numerics"]["frequency_points"])
-    chart, grid = evolution_stages.wear_chart(cfg), evolution_stages.wear_grid(cfg)
+    chart, grid = wear_chart(cfg), wear_grid(cfg)
     wheels = cfg["out_of_roundness"]["wheels"]
 
     def curve() -> np.ndarray:
-        found = evolution.wear_sensitivity(stored.bogie, stored.law, grid, chart, wheels)
-        return evolution.linear_wear_response(
+        found = wear_sensitivity(stored.bogie, stored.law, Wearing(chart, grid, tuple(wheels)))
+        return linear_wear_response(
             stored.bogie, found, frequency, stored.places.speed, stored.wheel_radius, wheels
         )
 

@@ -14,18 +14,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
-from tramdva import wear
-from tramdva.contact import (
-    fastsim,
-    geometry,
-    hertz,
-    kalker,
-    polach,
-    profiles,
-    traction_field,
-)
+from tramdva.contact import fastsim, geometry, hertz, kalker, polach, profiles, traction_field
+from tramdva.contact.creep_force import friction_coefficient
 from tramdva.contact.measured_profile import measured_profile, read_points
-from tramdva.creep_force import friction_coefficient
+from tramdva.wear.chart import WearChart
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = ROOT / "tests" / "reference" / "contact"
@@ -247,7 +239,7 @@ def picture_creep_curves(folder):
 
 def picture_wear(folder):
     """The chart with the working points (cells) of an inner and an outer wheel."""
-    chart = wear.WearChart()
+    chart = WearChart()
     figure, panel = plt.subplots(figsize=(4.4, 3.3))
     limit = chart.pressure_share * chart.hardness * 1e-9
     regions = (

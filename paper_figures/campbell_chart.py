@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 ORDERS = (5, 10, 15, 20, 26, 30, 40)
@@ -71,11 +73,4 @@ def draw_level(axes: Axes, words: str, frequency: float, fastest: float) -> None
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            bogie_modes=snakemake.input.bogie_modes,
-        )
+    run(main, snakemake)

@@ -9,9 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results, sheet, sheet_page
+from tramdva import results
+from tramdva.report import design_sheet, design_sheet_page, figures
+from tramdva.report.design_sheet import NAMES, NOMINAL, NONE, PAPER, ROBUST, Sheet, Table
+from tramdva.report.script import run
 from tramdva.results import atomically
-from tramdva.sheet import NAMES, NOMINAL, NONE, PAPER, ROBUST, Sheet, Table
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 WIDTH, HEIGHT, MARGIN = 210.0, 297.0, 16.0  # mm, A4
@@ -39,7 +41,7 @@ def main(
 ) -> None:
     """Write the sheet as PDF and as a page."""
     tuning = results.read(robust_tuning)
-    content = sheet.sheet(
+    content = design_sheet.sheet(
         cfg,
         tuning,
         results.read(stability_map),
@@ -54,7 +56,7 @@ def main(
                     document.savefig(page)
         picture = svg(pictures(tuning, cfg))
     with atomically(html) as part:
-        part.write_text(sheet_page.page(content, picture), encoding="utf-8")
+        part.write_text(design_sheet_page.page(content, picture), encoding="utf-8")
 
 
 def svg(figure: Figure) -> bytes:
@@ -241,7 +243,7 @@ def draw_map(axes: Axes, tuning: dict[str, np.ndarray], cfg: dict) -> None:
         figures.nothing(axes, "nothing to tune")
         return
     power = int(np.floor(np.log10(tuning["map_c_T"][-1])))
-    scale, units = 10.0**power, sheet.unit_names(cfg)
+    scale, units = 10.0**power, design_sheet.unit_names(cfg)
     stiffness = tuning["map_c_T"] / scale
     image = axes.contourf(
         stiffness, tuning["map_d_T"], 100 * worst, 100 * LEVELS, cmap=figures.SPREAD, extend="both"
@@ -276,9 +278,9 @@ def draw_ranges(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
     if not np.isfinite(nominal):
         figures.nothing(axes, "no optimum")
         return
-    names = list(sheet.RANGES)
+    names = list(design_sheet.RANGES)
     for row, name in enumerate(names):
-        low, high = (100 * sheet.left(tuning, ROBUST, name, end) for end in ("min", "max"))
+        low, high = (100 * design_sheet.left(tuning, ROBUST, name, end) for end in ("min", "max"))
         axes.plot([low, high], [row, row], color="0.6", linewidth=2.5, solid_capstyle="butt")
         axes.plot(low, row, "<", color="C1")
         axes.plot(high, row, ">", color="C0")
@@ -297,14 +299,4 @@ def draw_ranges(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            html=snakemake.output.html,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            stability_map=snakemake.input.stability_map,
-            bogie_modes=snakemake.input.bogie_modes,
-            tendency_maps=snakemake.input.tendency_maps,
-            robust_tuning=snakemake.input.robust_tuning,
-        )
+    run(main, snakemake)

@@ -19,10 +19,10 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from tramdva import job, packing, results
-from tramdva.figures import KILO, MEGA
-from tramdva.web_page import Part, Shown, filled, row, row_of, verdicts
-from tramdva.web_plots import (
+from tramdva import results
+from tramdva.report import packed_arrays
+from tramdva.report.explorer_page import Part, Shown, filled, row, row_of, verdicts
+from tramdva.report.explorer_plots import (
     GROWTH_END,
     WITHOUT,
     Grid,
@@ -34,6 +34,8 @@ from tramdva.web_plots import (
     signed_colours,
     three_curves,
 )
+from tramdva.report.figures import KILO, MEGA
+from tramdva.report.script import run
 
 FOLDER = Path(__file__).parent
 OPENS_IN_REPORT = 1_500_000  # bytes; in base 64 Chromium's 2 MB
@@ -96,8 +98,8 @@ def wheelset_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     shown = np.where(found["instability"] == "stable", peak, np.nan)
     quiet = cfg["forced_excitation"]["B"]
     receptance = found["receptance_amplitude"] / MM_PER_KN
-    array = packing.pack(receptance, STEPS, (2, 2, 1), "log")
-    growth = packing.pack(found["map_growth_rate"], differences=(1, 2, 3), **GROWTH)
+    array = packed_arrays.pack(receptance, STEPS, (2, 2, 1), "log")
+    growth = packed_arrays.pack(found["map_growth_rate"], differences=(1, 2, 3), **GROWTH)
     note = f"No steady response: the wheelset vibrates by itself at B = {quiet:g} s/m as well."
     data = {
         **grid.data(shown),
@@ -215,7 +217,7 @@ def bogie_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
         "curves": [
             {
                 "plot": f"bogie_tendency_{w}",
-                "array": packing.pack(relative[:, :, w], differences=(2, 2, 1), **TENDENCY),
+                "array": packed_arrays.pack(relative[:, :, w], differences=(2, 2, 1), **TENDENCY),
             }
             for w in range(len(none))
         ],
@@ -316,11 +318,4 @@ def growth_plane(grid: Grid, growth: np.ndarray) -> figure:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            page=snakemake.output.page,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            wheelset_designs=snakemake.input.wheelset_designs,
-            bogie_designs=snakemake.input.bogie_designs,
-        )
+    run(main, snakemake)

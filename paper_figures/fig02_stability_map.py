@@ -9,8 +9,10 @@ from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from tramdva import figures, job, results
-from tramdva.figures import KILO, MEGA
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import KILO, MEGA
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 CIRCLE = {"marker": "o", "color": "black", "linestyle": "none", "markersize": 5}
@@ -159,11 +161,4 @@ def areas(kinds: set[str]) -> list[Artist]:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            stability_map=snakemake.input.stability_map,
-        )
+    run(main, snakemake)

@@ -7,8 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
-from tramdva.figures import MEGA, MILLI
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import MEGA, MILLI
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 SPECIAL = {"fold": "x", "period_doubling": "+", "torus": "1"}  # markers
@@ -205,12 +207,4 @@ def explain(figure: Figure, cycles: dict[str, np.ndarray]) -> None:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            hopf_points=snakemake.input.hopf_points,
-            limit_cycles=snakemake.input.limit_cycles,
-        )
+    run(main, snakemake)

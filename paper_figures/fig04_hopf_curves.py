@@ -7,8 +7,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
-from tramdva.figures import KILO, MEGA
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import KILO, MEGA
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LINES = ("-", *figures.DASHES)
@@ -85,12 +87,4 @@ def draw_critical_points(
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            hopf_curves=snakemake.input.hopf_curves,
-            critical_hopf_curve=snakemake.input.critical_hopf_curve,
-        )
+    run(main, snakemake)

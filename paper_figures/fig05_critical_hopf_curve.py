@@ -8,8 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from tramdva import figures, job, results
-from tramdva.figures import KILO, MEGA
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import KILO, MEGA
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 FAR = 0.3  # of the largest d_T
@@ -116,11 +118,4 @@ def draw_detail(axes: Axes, cfg: dict, critical: dict[str, np.ndarray]) -> None:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            critical_hopf_curve=snakemake.input.critical_hopf_curve,
-        )
+    run(main, snakemake)

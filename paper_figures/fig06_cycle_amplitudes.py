@@ -8,8 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
-from tramdva import figures, job, results
-from tramdva.figures import KILO, MEGA, MILLI
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import KILO, MEGA, MILLI
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 AXLES = {"critical": {"linewidth": 1.3}, "baseline": {"linewidth": 0.8, "linestyle": (0, (5, 2))}}
@@ -105,12 +107,4 @@ def no_cycles(critical: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) ->
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            critical_hopf_curve=snakemake.input.critical_hopf_curve,
-            cycle_amplitudes=snakemake.input.cycle_amplitudes,
-        )
+    run(main, snakemake)

@@ -8,8 +8,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
-from tramdva.figures import KILO, MILLI
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import KILO, MILLI
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 BLUE = {"color": "C1", "linewidth": 1.4}  # without absorber, as in the paper
@@ -136,12 +138,4 @@ def scale_in_mm(axes: Axes, response: dict[str, np.ndarray]) -> None:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            frequency_response=snakemake.input.frequency_response,
-            absorber_tuning=snakemake.input.absorber_tuning,
-        )
+    run(main, snakemake)

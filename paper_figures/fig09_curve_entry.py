@@ -7,8 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from tramdva import figures, job, results
-from tramdva.figures import MILLI
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.figures import MILLI
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LOOKS = (
@@ -96,12 +98,4 @@ def draw_detail(
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            curve_entry=snakemake.input.curve_entry,
-            bogie_modes=snakemake.input.bogie_modes,
-        )
+    run(main, snakemake)

@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 STYLES = {
@@ -109,11 +111,4 @@ def legend(tendency: dict[str, np.ndarray]) -> list:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            evolution_tendency=snakemake.input.evolution_tendency,
-        )
+    run(main, snakemake)

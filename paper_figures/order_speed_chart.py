@@ -7,7 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 KMH = 3.6  # km/h per m/s
@@ -94,11 +96,4 @@ def draw_orders(axes: Axes, maps: dict[str, np.ndarray], circumference: float) -
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            tendency_maps=snakemake.input.tendency_maps,
-        )
+    run(main, snakemake)

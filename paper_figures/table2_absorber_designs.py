@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from tramdva import figures, job, results, tables
-from tramdva.figures import KILO, MEGA
+from tramdva import results
+from tramdva.report import figures, tables
+from tramdva.report.figures import KILO, MEGA
+from tramdva.report.script import run
 
 MM_PER_KN = 1e-6  # m/N
 
@@ -61,10 +63,4 @@ def numbers(tuning: dict[str, np.ndarray], row: int) -> list[str]:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            table=snakemake.output.table,
-            page=snakemake.output.page,
-            code=snakemake.params.code,
-            absorber_tuning=snakemake.input.absorber_tuning,
-        )
+    run(main, snakemake)

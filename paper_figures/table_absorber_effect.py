@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from tramdva import figures, job, results, tables
+from tramdva import results
+from tramdva.report import figures, tables
+from tramdva.report.script import run
 
 # What the paper says of the peaks (1), (2), (3): frequency in Hz and factor by the absorbers.
 PAPER = {
@@ -59,11 +61,4 @@ def number(value: float, form: str) -> str:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            table=snakemake.output.table,
-            page=snakemake.output.page,
-            code=snakemake.params.code,
-            line=snakemake.wildcards.line,
-            evolution_tendency=snakemake.input.evolution_tendency,
-        )
+    run(main, snakemake)

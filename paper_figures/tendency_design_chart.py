@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LEVELS = np.arange(0.0, 1.01, 0.1)
@@ -72,11 +74,4 @@ def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray, unit: 
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            tendency_maps=snakemake.input.tendency_maps,
-        )
+    run(main, snakemake)

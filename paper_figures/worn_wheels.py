@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tramdva import figures, job, results
+from tramdva import results
+from tramdva.report import figures
+from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
 MICRO = 1e-6
@@ -85,12 +87,4 @@ def draw_orders(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
 
 
 if __name__ == "__main__":
-    with job.logging_to(snakemake.log[0]):
-        main(
-            pdf=snakemake.output.pdf,
-            png=snakemake.output.png,
-            code=snakemake.params.code,
-            cfg=snakemake.params.cfg,
-            evolution_tendency=snakemake.input.evolution_tendency,
-            wear=snakemake.input.wear,
-        )
+    run(main, snakemake)

@@ -9,7 +9,7 @@ from pathlib import Path
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-from tramdva.provenance import use_numba_cache
+from tramdva.running.numba_cache import use_numba_cache
 
 use_numba_cache()
 

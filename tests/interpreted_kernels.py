@@ -15,13 +15,17 @@ from typing import Any
 import numpy as np
 from wheelset_lines import paper
 
-from tramdva import config, creep_force, evolution_stages, wheelset
-from tramdva.bogie import line, running, simulation_stage, stages
-from tramdva.bogie.rough_wheel_files import stored_bogie
-from tramdva.contact import geometry, hertz, kalker, polach, profiles
-from tramdva.self_excitation import solve_hopf_point
-from tramdva.sustained_vibration import limit_cycle_branch, orbit_extremes
-from tramdva.wear import METHODS
+from tramdva.bogie import wheel_forces
+from tramdva.bogie.stored import stored_bogie
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import USES, used_values
+from tramdva.contact import creep_force, geometry, hertz, kalker, polach, profiles
+from tramdva.contact.tables import stored_tables
+from tramdva.stages import bogie_linearisation, bogie_simulation, contact_geometry, wear
+from tramdva.wear.chart import METHODS
+from tramdva.wheelset import model
+from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
+from tramdva.wheelset.hopf import solve_hopf_point
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 CHANGES = {
@@ -42,11 +46,11 @@ Values = dict[str, Any]
 
 def inputs() -> Values:
     """What both runs start from: contact tables, a linearised vehicle, histories of contacts."""
-    configuration = config.load(CONFIG, overrides=CHANGES)
-    cfg = {name: config.stage(configuration, "paper", name) for name in config.STAGES}
-    tables = line.contact_geometry(cfg["contact_geometry"])
-    linear = stages.bogie_linearisation(cfg["bogie_linearisation_none"], tables)
-    simulated = simulation_stage.bogie_simulation(cfg["bogie_simulation"], 26, tables, linear)
+    configuration = load(CONFIG, overrides=CHANGES)
+    cfg = {name: used_values(configuration, "paper", name) for name in USES}
+    tables = contact_geometry.compute(cfg["contact_geometry"])
+    linear = bogie_linearisation.compute(cfg["bogie_linearisation_none"], tables)
+    simulated = bogie_simulation.compute(cfg["bogie_simulation"], 26, tables, linear)
     return {
         "cfg": cfg,
         "tables": tables,
@@ -71,9 +75,9 @@ def of_the_wheelset() -> Values:
     for mounted, c_A in ((False, 4.7e7), (True, 6.2e7)):
         values = paper(c_A=c_A, c_T=2e7, d_T=7500.0)
         states = np.linspace(0.1, 1.0, 2 * (6 if mounted else 4)).reshape(2, -1)
-        found[f"accelerations {mounted}"] = wheelset.accelerations(states, np.array(values))
-        found[f"jacobian {mounted}"] = wheelset.jacobian(states, np.array(values))
-        found[f"matrices {mounted}"] = wheelset.linearised(values, mounted).matrices
+        found[f"accelerations {mounted}"] = model.accelerations(states, np.array(values))
+        found[f"jacobian {mounted}"] = model.jacobian(states, np.array(values))
+        found[f"matrices {mounted}"] = model.linearised(values, mounted).matrices
         start = solve_hopf_point(values, mounted, "c_A")
         cycles = limit_cycle_branch(start, "c_A", (1e7, 4e8), numerics).cycles
         extremes = orbit_extremes(cycles[-1], values, mounted)
@@ -105,18 +109,18 @@ def of_the_bogie(given: Values) -> Values:
     short = {"samples": 16, "longest_transient": 1, "tolerance": 1.0}
     values = {**cfg["bogie_simulation"]}
     values["numerics"] = {**values["numerics"], **short}
-    simulated = simulation_stage.bogie_simulation(values, 4, given["tables"], linear)
+    simulated = bogie_simulation.compute(values, 4, given["tables"], linear)
     del simulated["difference"]  # of nearly equal numbers: rounding
     found: Values = {"simulation": simulated}
     stored = stored_bogie(linear)
-    contacts = running.Contacts(line.contact_tables(given["tables"]), stored.law, stored.places)
+    contacts = wheel_forces.Contacts(stored_tables(given["tables"]), stored.law, stored.places)
     at_rest = (contacts, stored.bogie.curvatures, stored.bogie.modal.local)
-    found["forces"], _ = running.contact_forces(*at_rest)
-    found["jacobian"] = running.contact_jacobian(*at_rest)
-    found["sensitivity"] = running.radius_sensitivity(*at_rest)._asdict()
+    found["forces"], _ = wheel_forces.contact_forces(*at_rest)
+    found["jacobian"] = wheel_forces.contact_jacobian(*at_rest)
+    found["sensitivity"] = wheel_forces.radius_sensitivity(*at_rest)._asdict()
     for method in METHODS:
         values = {**cfg["wear"], "wear": {**cfg["wear"]["wear"], "method": method}}
-        found[f"wear {method}"] = evolution_stages.wear(values, given["simulated"])
+        found[f"wear {method}"] = wear.compute(values, given["simulated"])
     return found
 
 

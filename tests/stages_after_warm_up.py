@@ -14,11 +14,24 @@ from numba.core.dispatcher import Dispatcher
 from wheelset_lines import paper
 
 import tramdva
-from tramdva import config, evolution_stages, robust_tuning, robustness_sample, warm_up
-from tramdva.bogie import line, simulation_stage, stages
-from tramdva.self_excitation import solve_hopf_point
-from tramdva.stability import growth_rate
-from tramdva.sustained_vibration import limit_cycle_branch, orbit_extremes
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import USES, used_values
+from tramdva.stages import (
+    bogie_linearisation,
+    bogie_modes,
+    bogie_simulation,
+    contact_geometry,
+    curve_entry,
+    curving_equilibrium,
+    evolution_tendency,
+    robust_tuning,
+    robustness_sample,
+    warm_up,
+    wear,
+)
+from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
+from tramdva.wheelset.hopf import solve_hopf_point
+from tramdva.wheelset.stability import growth_rate
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 CHANGES = {
@@ -62,32 +75,32 @@ def wheelset() -> None:
 
 def bogie() -> None:
     """Contact geometry, equilibria, modes and the ride into the curve."""
-    configuration = config.load(CONFIG, overrides=CHANGES)
-    tables = line.contact_geometry(config.stage(configuration, "paper", "contact_geometry"))
+    configuration = load(CONFIG, overrides=CHANGES)
+    tables = contact_geometry.compute(used_values(configuration, "paper", "contact_geometry"))
     tuning = {name: np.full(1, np.nan) for name in ("m_T", "c_T", "d_T")}
     tuning |= {"design": np.array(["h_infinity"]), "status": np.array(["no_solution"])}
-    found = stages.curving_equilibrium(
-        config.stage(configuration, "paper", "curving_equilibrium"), tables, tuning
+    found = curving_equilibrium.compute(
+        used_values(configuration, "paper", "curving_equilibrium"), tables, tuning
     )
-    stages.bogie_modes(config.stage(configuration, "paper", "bogie_modes"), tables, found)
-    ride = config.stage(configuration, "paper", "curve_entry")
+    bogie_modes.compute(used_values(configuration, "paper", "bogie_modes"), tables, found)
+    ride = used_values(configuration, "paper", "curve_entry")
     ride["study"] = {**ride["study"], "duration": 0.02, "entry": 0.01}
-    stages.curve_entry(ride, tables, found)
+    curve_entry.compute(ride, tables, found)
 
 
 def wheel_wear() -> None:
     """A simulated order, its wear and the tendency."""
-    configuration = config.load(CONFIG, overrides=CHANGES)
-    values = {name: config.stage(configuration, "paper", name) for name in config.STAGES}
-    tables = line.contact_geometry(values["contact_geometry"])
-    linear = stages.bogie_linearisation(values["bogie_linearisation_none"], tables)
-    simulated = simulation_stage.bogie_simulation(values["bogie_simulation"], 26, tables, linear)
-    worn = evolution_stages.wear(values["wear"], simulated)
+    configuration = load(CONFIG, overrides=CHANGES)
+    values = {name: used_values(configuration, "paper", name) for name in USES}
+    tables = contact_geometry.compute(values["contact_geometry"])
+    linear = bogie_linearisation.compute(values["bogie_linearisation_none"], tables)
+    simulated = bogie_simulation.compute(values["bogie_simulation"], 26, tables, linear)
+    worn = wear.compute(values["wear"], simulated)
     cfg = values["evolution_tendency"]
     cfg["study"]["absorbers"] = ["none"]
-    evolution_stages.evolution_tendency(cfg, {"none": linear}, {"none": [worn]})
-    part = robustness_sample.robustness_sample(values["robustness_sample"], tables, 0)
-    robust_tuning.robust_tuning(values["robust_tuning"], [part])
+    evolution_tendency.compute(cfg, {"none": linear}, {"none": [worn]})
+    part = robustness_sample.compute(values["robustness_sample"], tables, 0)
+    robust_tuning.compute(values["robust_tuning"], [part])
 
 
 if __name__ == "__main__":

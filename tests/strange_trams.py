@@ -28,17 +28,19 @@ from typing import Any, NamedTuple
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
-from tramdva.provenance import use_numba_cache
+from tramdva import results
+from tramdva.configuration import reference
+from tramdva.configuration.line import Line
+from tramdva.configuration.reading import Configuration, load
+from tramdva.configuration.uses import used_values
+from tramdva.running.numba_cache import use_numba_cache
+from tramdva.stages import bogie_modes
+from tramdva.variables.registry import STAGES
 
 use_numba_cache()
 
 import numpy as np
 import yaml
-
-from tramdva import config, results, schema
-from tramdva.bogie.stages import SHAPES
-from tramdva.parameters import Line
-from tramdva.registry import STAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 SEED = 20
@@ -133,7 +135,7 @@ def drawn(seed: int, number: int, sections: tuple[str, ...], near: float | None)
     paper = yaml.safe_load((ROOT / "config/lines/paper.yaml").read_text(encoding="utf-8"))
     table = {
         path: entry
-        for path, entry in schema.entries(Line).items()
+        for path, entry in reference.entries(Line).items()
         if path.split(".")[0] in sections and entry.low is not None and "[" not in path
     }
     tram = {name: copy.deepcopy(paper[name]) for name in sections}
@@ -158,7 +160,7 @@ def _slips(line: Mapping[str, Any]) -> list[str]:
 
 
 def _value(
-    random: np.random.Generator, entry: schema.Entry, paper: float, near: float | None
+    random: np.random.Generator, entry: reference.Entry, paper: float, near: float | None
 ) -> float:
     if near is not None:
         value = paper * near ** random.uniform(-1.0, 1.0)
@@ -205,17 +207,17 @@ def run_stages(tram: Mapping[str, Any], jobs: Mapping[str, Job], folder: Path) -
             yield Outcome(name, statuses(found[name]), unexplained(name, found[name]), "", seconds)
 
 
-def _configured(tram: Mapping[str, Any], folder: Path) -> config.Configuration:
+def _configured(tram: Mapping[str, Any], folder: Path) -> Configuration:
     (folder / "lines").mkdir(parents=True)
     for name in ("config.yaml", "lines/paper.yaml"):
         (folder / name).write_bytes((ROOT / "config" / name).read_bytes())
     line = {"label": "strange"} | SHORT_RIDE | dict(tram)
     (folder / "lines/strange.yaml").write_text(yaml.safe_dump(line))
-    return config.load(folder, (), {"lines": ["strange"], "numerics": COARSE})
+    return load(folder, (), {"lines": ["strange"], "numerics": COARSE})
 
 
 def _stage(
-    configuration: config.Configuration,
+    configuration: Configuration,
     name: str,
     job: Job,
     found: Mapping[str, Mapping[str, np.ndarray]],
@@ -223,7 +225,7 @@ def _stage(
 ) -> dict[str, np.ndarray]:
     module = __import__(f"tramdva.{job.module}", fromlist=[name])
     function: Callable[..., Mapping[str, np.ndarray]] = getattr(module, name)
-    cfg = config.stage(configuration, "strange", name)
+    cfg = used_values(configuration, "strange", name)
     values = function(cfg, *(found[other] for other in job.upstream))
     path = folder / f"{name}.nc"
     results.save(path, name, values, parameters=cfg, code="")
@@ -345,7 +347,7 @@ def _reason(name: str, other: str, flags: np.ndarray) -> np.ndarray:
     if other.endswith("mode_name"):
         return flags == ""
     if other == "shape_mode":  # a mode that is not there keeps its bare word as name
-        return np.isin(flags, SHAPES)
+        return np.isin(flags, bogie_modes.SHAPES)
     return np.zeros(flags.shape, dtype=bool)
 
 

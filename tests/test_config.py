@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tramdva import config
+from tramdva.configuration.reading import ConfigurationError, load, load_or_exit
+from tramdva.configuration.uses import USES, used_values
 
 LABEL = "label: Line x\n"
 C_A = "must be between 1e6 and 1e10 N/m (effective stiffness of axle and primary suspension)"
@@ -13,8 +14,8 @@ NAME = "must be a name of lower-case letters, digits, - and _, at most 41 of the
 
 
 def problems(folder: Path, *files: Path, **overrides) -> list[str]:
-    with pytest.raises(config.ConfigurationError) as caught:
-        config.load(folder, files, overrides)
+    with pytest.raises(ConfigurationError) as caught:
+        load(folder, files, overrides)
     return str(caught.value).splitlines()
 
 
@@ -343,7 +344,7 @@ def test_label_is_one_printable_line(config_folder: Path, case: str) -> None:
 @pytest.mark.parametrize("written", ["0700", "1_000", "+7e2"])
 def test_numbers_are_decimal(config_folder: Path, written: str) -> None:
     write_line(config_folder, f"{LABEL}wheelset: {{d_A: {written}}}\n")
-    loaded = config.load(config_folder, overrides={"lines": ["x"]})
+    loaded = load(config_folder, overrides={"lines": ["x"]})
 
     assert loaded.lines["x"].wheelset.d_A == {"1_000": 1000.0}.get(written, 700.0)
 
@@ -416,7 +417,7 @@ def test_further_file_is_named(config_folder: Path, tmp_path: Path) -> None:
 
 def test_program_ends_with_the_problems_alone(config_folder: Path) -> None:
     with pytest.raises(SystemExit) as ended:
-        config.load_or_exit(config_folder, overrides={"lines": ["zzz"]})
+        load_or_exit(config_folder, overrides={"lines": ["zzz"]})
 
     assert ended.value.code == (
         "--config: lines[0] = zzz: there is no config/lines/zzz.yaml; there are: paper, worn-40m"
@@ -424,7 +425,7 @@ def test_program_ends_with_the_problems_alone(config_folder: Path) -> None:
 
 
 def test_uppermost_value_counts(config_folder: Path, root: Path) -> None:
-    loaded = config.load(
+    loaded = load(
         config_folder,
         [root / "config/quick.yaml"],
         {"numerics": {"limit_cycles": {"degree": "5"}}},
@@ -438,7 +439,7 @@ def test_uppermost_value_counts(config_folder: Path, root: Path) -> None:
 def test_line_merges_maps_and_replaces_lists(config_folder: Path) -> None:
     write_line(config_folder, LABEL + "wheelset: {c_A: 6e7}\nstudy: {hopf_curves: {d_T: [900]}}\n")
 
-    x = config.load(config_folder, overrides={"lines": ["x"]}).lines["x"]
+    x = load(config_folder, overrides={"lines": ["x"]}).lines["x"]
 
     assert x.label == "Line x"
     assert x.wheelset.c_A == 6.0e7
@@ -450,17 +451,17 @@ def test_line_merges_maps_and_replaces_lists(config_folder: Path) -> None:
 @pytest.mark.parametrize("written", ["60000000", "6e7", "6.0e+7", "6E7", '"6e7"', "0.6e8", "+6e7"])
 def test_notation_of_a_number_does_not_matter(config_folder: Path, written: str) -> None:
     write_line(config_folder, f"{LABEL}wheelset: {{c_A: {written}}}\n")
-    loaded = config.load(config_folder, overrides={"lines": ["x"]})
+    loaded = load(config_folder, overrides={"lines": ["x"]})
 
-    value = config.stage(loaded, "x", "stability_map")["wheelset"]["c_A"]
+    value = used_values(loaded, "x", "stability_map")["wheelset"]["c_A"]
 
     assert repr(value) == "60000000.0"
 
 
 def test_stage_has_its_own_entries_only(config_folder: Path) -> None:
-    loaded = config.load(config_folder)
+    loaded = load(config_folder)
 
-    values = config.stage(loaded, "paper", "absorber_tuning")
+    values = used_values(loaded, "paper", "absorber_tuning")
 
     assert set(values) == {
         "curve", "creep_force", "wheelset", "absorber", "forced_excitation", "study", "numerics",
@@ -471,7 +472,7 @@ def test_stage_has_its_own_entries_only(config_folder: Path) -> None:
 
 
 def test_stage_gets_variants_without_labels(config_folder: Path) -> None:
-    values = config.stage(config.load(config_folder), "paper", "stability_map")
+    values = used_values(load(config_folder), "paper", "stability_map")
 
     assert values["absorber"] == {"m_T": 40.0}
     assert values["absorber_variants"][0] == {"name": "case_1", "c_T": 4.0e7, "d_T": 7500.0}
@@ -486,16 +487,16 @@ def _plain(value: object) -> bool:
     return type(value) in (str, int) or (type(value) is float and math.isfinite(value))
 
 
-@pytest.mark.parametrize("name", config.STAGES)
+@pytest.mark.parametrize("name", USES)
 def test_stage_gives_plain_values(config_folder: Path, name: str) -> None:
-    assert _plain(config.stage(config.load(config_folder), "paper", name))
+    assert _plain(used_values(load(config_folder), "paper", name))
 
 
 def test_order_of_keys_does_not_matter(config_folder: Path) -> None:
     write_line(config_folder, LABEL + "curve: {gamma: -0.03, r_C: 30}\n", "x")
     write_line(config_folder, "curve: {r_C: 30, gamma: -0.03}\n" + LABEL, "y")
-    loaded = config.load(config_folder, overrides={"lines": ["x", "y"]})
+    loaded = load(config_folder, overrides={"lines": ["x", "y"]})
 
-    x, y = (config.stage(loaded, line, "stability_map") for line in ("x", "y"))
+    x, y = (used_values(loaded, line, "stability_map") for line in ("x", "y"))
 
     assert repr(x) == repr(y)

@@ -13,10 +13,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import copy_code
 
-from tramdva import archive, crate, results, run_record
+from tramdva import results
+from tramdva.record import archive, crate, run_record
 
 QUICK = ("--configfile", "config/quick.yaml")
 BESIDE_CODE = ("CITATION.cff", "LICENSE", "README.md", "pyproject.toml", "requirements.lock")
@@ -167,7 +169,7 @@ def test_versions_commit_and_authors_are_told(described: list[dict]) -> None:
     entity = {e["@id"]: e for e in described}
 
     assert entity["#python"]["version"] == ".".join(map(str, sys.version_info[:3]))
-    assert entity["#package-numpy"]["version"] == results.np.__version__
+    assert entity["#package-numpy"]["version"] == np.__version__
     assert entity["#commit"]["value"] == "unknown"
     assert entity["./"]["license"] == {"@id": "https://spdx.org/licenses/MIT"}
     assert [entity[i]["name"] for i in ids(entity["./"]["author"])] == ["The tramdva founders"]

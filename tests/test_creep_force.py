@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tramdva.creep_force import creep_force, creep_force_derivatives, friction_coefficient
+from tramdva.contact.creep_force import creep_force, creep_force_derivatives, friction_coefficient
 
 V_0 = 3.9083267665715731
 LAW = {"F_N": 35000.0, "mu_0": 0.35, "A": 0.36, "B": 0.7, "C_22": 5351976.0, "k_A": 1.0, "k_S": 1.0}

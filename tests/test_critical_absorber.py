@@ -4,8 +4,10 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq, minimize_scalar
 from wheelset_lines import paper, reference, sections
 
-from tramdva import critical_absorber, stability
-from tramdva.self_excitation import solve_hopf_point
+from tramdva.stages import critical_hopf_curve, hopf_curves
+from tramdva.wheelset import stability
+from tramdva.wheelset.critical import critical_point_at, largest_growth
+from tramdva.wheelset.hopf import solve_hopf_point
 
 CURVES = {
     "study": {
@@ -23,12 +25,12 @@ CRITICAL = {
 
 @pytest.fixture(scope="module")
 def curves():
-    return critical_absorber.hopf_curves({**sections(paper()), **CURVES})
+    return hopf_curves.compute({**sections(paper()), **CURVES})
 
 
 @pytest.fixture(scope="module")
 def critical(curves):
-    return critical_absorber.critical_hopf_curve({**sections(paper()), **CRITICAL}, curves)
+    return critical_hopf_curve.compute({**sections(paper()), **CRITICAL}, curves)
 
 
 def growth_peak(c_T, d_T):
@@ -80,7 +82,7 @@ def test_critical_curve_of_the_reference(critical):
             c_T=1.01 * float(row["c_T"]),
             c_A=1.02 * float(row["c_A"]),
         )
-        found = critical_absorber.critical_point_at(guess)
+        found = critical_point_at(guess)
         assert_allclose(found.d_T, float(row["d_T"]), rtol=1e-14)
         assert_allclose(found.c_T, float(row["c_T"]), rtol=1e-11)
         assert_allclose(found.c_A, float(row["c_A"]), rtol=1e-10)
@@ -106,10 +108,7 @@ def test_shape_of_the_critical_curve(critical):
     small = lower & (critical["d_T"] < 20e3)
     limit = critical["d_T"][small].max()
     c_A = np.geomspace(1e6, 1e9, 2000)
-    rates = [
-        critical_absorber.largest_growth(paper(c_T=1e3, d_T=d_T), c_A)
-        for d_T in (limit - 2.0, limit + 2.0)
-    ]
+    rates = [largest_growth(paper(c_T=1e3, d_T=d_T), c_A) for d_T in (limit - 2.0, limit + 2.0)]
     assert rates[0] > 0.0 > rates[1]
     assert 2800.0 < limit < 2900.0
     order = np.argsort(critical["d_T"][small])
@@ -133,13 +132,13 @@ def test_global_check_refuses_the_local_tangency_at_small_damping(critical):
 def test_absorber_inside_the_curve_stabilises_and_outside_does_not():
     for c_T, unstable in ((0.95 * 17125790.0, False), (1.05 * 17125790.0, True)):
         values = paper(c_T=c_T, d_T=7500.0)
-        largest = critical_absorber.largest_growth(values, np.geomspace(1e6, 1e9, 400))
+        largest = largest_growth(values, np.geomspace(1e6, 1e9, 400))
         assert (largest > 0.0) == unstable
 
 
 def test_without_self_excitation_there_is_nothing_to_continue():
     cfg = {**sections(paper(B=0.3)), **CURVES}
-    out = critical_absorber.hopf_curves(cfg)
+    out = hopf_curves.compute(cfg)
     assert all(len(value) == 0 for value in out.values())
-    empty = critical_absorber.critical_hopf_curve({**cfg, **CRITICAL}, out)
+    empty = critical_hopf_curve.compute({**cfg, **CRITICAL}, out)
     assert all(len(value) == 0 for value in empty.values())

@@ -8,9 +8,11 @@ import pytest
 from figure_scripts import STYLE, script, texts
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from tramdva import config, figures, sheet, sheet_page
-from tramdva.registry import STAGES
-from tramdva.sheet import NOMINAL, PAPER, ROBUST
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.report import design_sheet, design_sheet_page, figures
+from tramdva.report.design_sheet import NOMINAL, PAPER, ROBUST
+from tramdva.variables.registry import STAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 KINDS = {"real": float, "flag": "U20", "truth": bool, "text": "U30"}
@@ -19,12 +21,12 @@ DESIGN = script("design_sheet")
 
 @pytest.fixture
 def cfg() -> dict:
-    return config.stage(config.load(ROOT / "config"), "paper", "design_sheet")
+    return used_values(load(ROOT / "config"), "paper", "design_sheet")
 
 
 def tuning() -> dict[str, np.ndarray]:
     """Numbers of a robust tuning with 30 sampled cases."""
-    ranges = list(sheet.RANGES)
+    ranges = list(design_sheet.RANGES)
     ends = [f"{name}_{end}" for name in ranges[:9] for end in ("min", "max")]
     varied = ["none", *ends, *["all"] * 30]
     cases = len(varied)
@@ -117,8 +119,8 @@ def maps(sign: float = 1.0) -> dict[str, np.ndarray]:
     }
 
 
-def content(cfg, values, critical: float = 0.68, **others) -> sheet.Sheet:
-    return sheet.sheet(
+def content(cfg, values, critical: float = 0.68, **others) -> design_sheet.Sheet:
+    return design_sheet.sheet(
         cfg,
         values,
         {"baseline_critical_B": np.array(critical)},
@@ -127,10 +129,10 @@ def content(cfg, values, critical: float = 0.68, **others) -> sheet.Sheet:
     )
 
 
-def page_of(cfg, values, found: sheet.Sheet) -> str:
+def page_of(cfg, values, found: design_sheet.Sheet) -> str:
     with figures.style(STYLE):
         picture = DESIGN.svg(DESIGN.pictures(values, cfg))
-    return sheet_page.page(found, picture)
+    return design_sheet_page.page(found, picture)
 
 
 def test_sheet_tells_every_quantity(cfg):
@@ -151,7 +153,7 @@ def test_sheet_tells_every_quantity(cfg):
     assert not re.findall(r"(?:src|href)=\"(?!data:)", said)
 
 
-def cell(table: sheet.Table, row: str, column: int) -> str:
+def cell(table: design_sheet.Table, row: str, column: int) -> str:
     (found,) = [cells for cells in table.rows if cells[0].strip().startswith(row)]
     return found[column]
 
@@ -161,8 +163,8 @@ def test_numbers_of_the_absorber_are_those_of_the_file(cfg):
     assert cell(found, "added unsprung mass", ROBUST) == "80.0 (8 %)"
     assert cell(found, "weight on one", ROBUST) == "392"
     worst = 1e3 * values["stroke_amplitude"][PAPER].max()
-    assert cell(found, "stroke", PAPER) == f"0.0200, {sheet.number(worst)}"
-    assert cell(found, "at 250 mm", PAPER) == f"0.00500, {sheet.number(0.25 * worst)}"
+    assert cell(found, "stroke", PAPER) == f"0.0200, {design_sheet.number(worst)}"
+    assert cell(found, "at 250 mm", PAPER) == f"0.00500, {design_sheet.number(0.25 * worst)}"
     assert cell(found, "growth left in the worst case", ROBUST) == "71 %"
 
 
@@ -225,7 +227,7 @@ def test_orders_that_grow_are_those_of_the_tendency(cfg):
     ("orders", "words"), [([], "none"), ([4], "4"), ([1, 2, 3, 7, 9, 10], "1 to 3, 7, 9 to 10")]
 )
 def test_ranges_of_whole_numbers(orders, words):
-    assert sheet.in_ranges(orders) == words
+    assert design_sheet.in_ranges(orders) == words
 
 
 @pytest.mark.parametrize(
@@ -234,7 +236,7 @@ def test_ranges_of_whole_numbers(orders, words):
      (392.4, "392"), (-2e-5, "−2.00·10⁻⁵"), (0.0780, "0.0780"), (1234.0, "1234")],
 )  # fmt: skip
 def test_numbers_in_words(value, words):
-    assert sheet.number(value) == words
+    assert design_sheet.number(value) == words
 
 
 @pytest.mark.parametrize(
@@ -242,7 +244,7 @@ def test_numbers_in_words(value, words):
     [(0.27, "27 %"), (0.004, "0.4 %"), (0.0, "0 %"), (np.nan, "–"), (1.5, "150 %")],
 )
 def test_shares_in_per_cent(share, words):
-    assert sheet.percent(share) == words
+    assert design_sheet.percent(share) == words
 
 
 def test_letters_of_a_label_mean_nothing(cfg):

@@ -8,16 +8,23 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tramdva import bogie_designs, config, packing
-from tramdva.bogie import line as bogie_line
+from tramdva.bogie import tram
 from tramdva.bogie.curving import linearise
 from tramdva.bogie.rough_wheels import rough_bogie
-from tramdva.design_grid import design_axis
-from tramdva.evolution import evolution_tendency
-from tramdva.evolution_stages import linear_response, wear_in_equilibrium
-from tramdva.stability import characteristic_polynomial, hurwitz_determinants
-from tramdva.wheelset import linearised, wheelset_parameters
-from tramdva.wheelset_designs import wheelset_designs
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.evolution.tendency import (
+    evolution_tendency,
+    linear_wear_response,
+    wear_sensitivity,
+)
+from tramdva.report import packed_arrays
+from tramdva.stages import bogie_designs, contact_geometry, wheelset_designs
+from tramdva.stages.axes import design_axis
+from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
+from tramdva.stages.wheels_out_of_round import wearing
+from tramdva.wheelset.model import linearised, wheelset_parameters
+from tramdva.wheelset.stability import characteristic_polynomial, hurwitz_determinants
 
 ROOT_CONFIG = Path(__file__).resolve().parents[1] / "config"
 LIMITS = {"min": 10.0, "max": 1000.0}
@@ -25,11 +32,11 @@ LIMITS = {"min": 10.0, "max": 1000.0}
 
 @pytest.fixture(scope="module")
 def configuration():
-    return config.load(ROOT_CONFIG)
+    return load(ROOT_CONFIG)
 
 
 def wheelset_cfg(configuration, **forced):
-    cfg = config.stage(configuration, "paper", "wheelset_designs")
+    cfg = used_values(configuration, "paper", "wheelset_designs")
     cfg["numerics"] = {
         "c_T_points": 7, "d_T_points": 5, "frequency_points": 120, "map_points": 6,
     }  # fmt: skip
@@ -39,7 +46,7 @@ def wheelset_cfg(configuration, **forced):
 
 @pytest.fixture(scope="module")
 def wheelset(configuration):
-    return wheelset_designs(wheelset_cfg(configuration))
+    return wheelset_designs.compute(wheelset_cfg(configuration))
 
 
 def test_axis_has_equal_ratios_and_the_own_value():
@@ -104,7 +111,7 @@ def test_line_and_its_own_absorber_are_on_the_grid(configuration, wheelset):
 
 def test_self_excited_wheelsets_have_a_status_and_no_response(configuration):
     """At the friction decrease of operation the response is sought where some designs vibrate."""
-    found = wheelset_designs(wheelset_cfg(configuration, B=0.7))
+    found = wheelset_designs.compute(wheelset_cfg(configuration, B=0.7))
 
     stable = found["growth_rate"] < 0.0
     assert 0 < np.count_nonzero(~stable) < stable.size
@@ -122,48 +129,49 @@ def test_self_excited_wheelsets_have_a_status_and_no_response(configuration):
 
 @pytest.fixture(scope="module")
 def bogie_cfg():
-    quick = config.load(ROOT_CONFIG, [ROOT_CONFIG / "quick.yaml"])
-    cfg = config.stage(quick, "paper", "bogie_designs")
+    quick = load(ROOT_CONFIG, [ROOT_CONFIG / "quick.yaml"])
+    cfg = used_values(quick, "paper", "bogie_designs")
     cfg["numerics"] |= {"c_T_points": 3, "d_T_points": 3, "frequency_points": 75}
     return cfg
 
 
 @pytest.fixture(scope="module")
 def tables():
-    quick = config.load(ROOT_CONFIG, [ROOT_CONFIG / "quick.yaml"])
-    return bogie_line.contact_geometry(config.stage(quick, "paper", "contact_geometry"))
+    quick = load(ROOT_CONFIG, [ROOT_CONFIG / "quick.yaml"])
+    return contact_geometry.compute(used_values(quick, "paper", "contact_geometry"))
 
 
 @pytest.fixture(scope="module")
 def bogie(bogie_cfg, tables):
-    return bogie_designs.bogie_designs(bogie_cfg, tables)
+    return bogie_designs.compute(bogie_cfg, tables)
 
 
 @pytest.fixture(scope="module")
 def running_without(bogie_cfg, tables):
     """Line and run without absorbers, by prefix of the variables; the quiet one last."""
     lines = {
-        "": bogie_line.bogie_line(bogie_cfg, tables),
-        "quiet_": bogie_line.quiet_bogie_line(bogie_cfg, tables),
+        "": bogie_line(bogie_cfg, tables),
+        "quiet_": quiet_bogie_line(bogie_cfg, tables),
     }
-    return {prefix: (line, bogie_line.run_through(line, 4)) for prefix, line in lines.items()}
+    return {prefix: (line, tram.run_through(line, 4)) for prefix, line in lines.items()}
 
 
 @pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 1), (2, 1)])
 def test_bogie_designs_equal_the_bogie_built_with_them(bogie_cfg, running_without, bogie, i, j):
     """Tendency and growth rates of a vehicle that is assembled with the absorber."""
     for prefix, (line, without) in running_without.items():
-        design = bogie_line.absorber(line, bogie["c_T"][j], bogie["d_T"][i])
-        run = bogie_line.changed(line, design, without)
+        design = tram.absorber(line, bogie["c_T"][j], bogie["d_T"][i])
+        run = tram.changed(line, design, without)
         values = np.linalg.eigvals(linearise(run.curve, run.equilibrium.state).matrix)
         inside = (values.imag > 2 * np.pi * 30.0) & (values.imag < 2 * np.pi * 200.0)
         growth = bogie[f"{prefix}growth_rate"][i, j]
         assert growth == pytest.approx(values.real[inside].max(), rel=1e-5)
         assert (bogie[f"{prefix}self_excitation"][i, j] == "stable") == (growth < 0.0)
     rough = rough_bogie(run.curve, run.equilibrium)
-    worn = wear_in_equilibrium(bogie_cfg, rough, run.curve.contacts.law)
-    response = linear_response(bogie_cfg, rough, worn, bogie["frequency"], 4.0, 0.3)
-    expected = evolution_tendency(response)
+    wheels = wearing(bogie_cfg)
+    worn = wear_sensitivity(rough, run.curve.contacts.law, wheels)
+    response = linear_wear_response(rough, worn, bogie["frequency"], 4.0, 0.3, wheels.wheels)
+    expected = evolution_tendency(response[:, wheels.places].T)
     size = np.abs(bogie["none_tendency"]).max()
     np.testing.assert_allclose(bogie["tendency"][i, j], expected, atol=1e-5 * size)
     near = (bogie["frequency"] >= 45.0) & (bogie["frequency"] <= 65.0)
@@ -183,7 +191,7 @@ def test_without_equilibrium_there_is_a_status_and_no_number(bogie_cfg, tables, 
     lifted = SimpleNamespace(equilibrium=SimpleNamespace(status="wheel_lifted"))
     monkeypatch.setattr(bogie_designs, "run_through", lambda line, steps: lifted)
 
-    found = bogie_designs.bogie_designs(bogie_cfg, tables)
+    found = bogie_designs.compute(bogie_cfg, tables)
 
     assert found["status"] == "wheel_lifted"
     for prefix in ("", "quiet_", "none_", "none_quiet_"):
@@ -205,7 +213,7 @@ def unpacked(packed: dict) -> np.ndarray:
         whole = np.cumsum(whole, axis=axis) % 65536
     plain = {"linear": np.asarray, "log": np.exp, "asinh": np.sinh}[packed["kind"]]
     values = packed["scale"] * plain((whole + packed["lowest"]) * packed["step"])
-    return np.where(whole == packing.MISSING, np.nan, values)
+    return np.where(whole == packed_arrays.MISSING, np.nan, values)
 
 
 @pytest.mark.parametrize("differences", [(), (0,), (2, 2, 1), (0, 1, 2)])
@@ -215,18 +223,18 @@ def test_packed_arrays_come_back_within_half_a_step(differences):
     values[1, 2, 30:40] = np.nan
     for step, kind, scale in ((1e-3, "linear", 2.0), (1e-2, "asinh", 0.1), (1e-3, "log", 1.0)):
         given = np.exp(values) if kind == "log" else values
-        found = unpacked(packing.pack(given, step, differences, kind, scale))
+        found = unpacked(packed_arrays.pack(given, step, differences, kind, scale))
         plain = {"linear": np.asarray, "asinh": np.arcsinh, "log": np.log}[kind]
         np.testing.assert_array_equal(np.isnan(found), np.isnan(given))
         np.testing.assert_allclose(plain(found / scale), plain(given / scale), atol=0.5001 * step)
 
 
 def test_nothing_but_missing_values_comes_back():
-    assert np.isnan(unpacked(packing.pack(np.full((2, 3), np.nan), 0.1, (1,)))).all()
+    assert np.isnan(unpacked(packed_arrays.pack(np.full((2, 3), np.nan), 0.1, (1,)))).all()
 
 
 def test_values_that_need_more_than_16_bits_are_refused():
     with pytest.raises(ValueError, match="more than 65535 steps"):
-        packing.pack(np.array([0.0, 70.0]), 1e-3, ())
+        packed_arrays.pack(np.array([0.0, 70.0]), 1e-3, ())
     with pytest.raises(ValueError, match="more than 65535 steps"):
-        packing.pack(np.array([0.0, 1.0]), 1e-3, (), "log")
+        packed_arrays.pack(np.array([0.0, 1.0]), 1e-3, (), "log")

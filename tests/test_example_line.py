@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 import yaml
 
-from tramdva import config, results
+from tramdva import results
+from tramdva.configuration.reading import Configuration, load
+from tramdva.configuration.uses import used_values
+from tramdva.contact import profiles
 from tramdva.contact.measured_profile import measured_profile
-from tramdva.out_of_roundness import order_amplitudes, read_measurement
+from tramdva.evolution.out_of_roundness import order_amplitudes, read_measurement
 
 NAME = "worn-40m"
 CHANGED = {  # what the line changes for each stage of the bogie
@@ -23,8 +26,8 @@ CHANGED = {  # what the line changes for each stage of the bogie
 
 
 @pytest.fixture(scope="module")
-def loaded(root: Path) -> config.Configuration:
-    return config.load(root / "config")
+def loaded(root: Path) -> Configuration:
+    return load(root / "config")
 
 
 @pytest.fixture(scope="module")
@@ -56,19 +59,19 @@ def test_only_what_differs_stands_in_the_file(loaded, own) -> None:
 
 @pytest.mark.parametrize("stage", CHANGED)
 def test_values_that_differ_reach_their_stages(loaded, stage: str) -> None:
-    paper, line = (config.stage(loaded, name, stage) for name in ("paper", NAME))
+    paper, line = (used_values(loaded, name, stage) for name in ("paper", NAME))
 
     assert {key for key in line if line[key] != paper[key]} == CHANGED[stage]
 
 
 def test_every_stage_of_the_bogie_gets_the_hash_of_its_files_alone(loaded) -> None:
     files = loaded.measured[NAME]
-    geometry = config.stage(loaded, NAME, "contact_geometry")["measured"]
-    simulation = config.stage(loaded, NAME, "bogie_simulation")["measured"]
+    geometry = used_values(loaded, NAME, "contact_geometry")["measured"]
+    simulation = used_values(loaded, NAME, "bogie_simulation")["measured"]
 
     assert geometry == {name: files[name].sha256 for name in ("wheel", "rail")}
     assert simulation == {"out_of_roundness": files["out_of_roundness"].sha256}
-    assert config.stage(loaded, "paper", "contact_geometry")["measured"] == {
+    assert used_values(loaded, "paper", "contact_geometry")["measured"] == {
         "wheel": "",
         "rail": "",
     }
@@ -86,8 +89,6 @@ def test_files_are_what_their_script_writes_and_say_so(root: Path, tmp_path: Pat
 
 
 def test_worn_profiles_lost_material_where_they_say(root: Path) -> None:
-    from tramdva.contact import profiles
-
     folder = root / "config/profiles"
     wheel = measured_profile(folder / "worn_wheel.csv", "wheel", 2e-6)
     new = profiles.tram_wheel(17e-3)

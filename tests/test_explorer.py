@@ -11,9 +11,11 @@ from browser import Watched, chromium, wait_for_value
 from figure_scripts import script
 from PIL import Image
 
-from tramdva import config, results
-from tramdva.design_grid import design_axis
-from tramdva.wheelset_designs import wheelset_designs
+from tramdva import results
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.stages import wheelset_designs
+from tramdva.stages.axes import design_axis
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 HOSTILE = '</title><script>window.hacked = 1</script><img src=x onerror="hacked=2"> @data@ $$x^2$$'
@@ -23,11 +25,11 @@ WHEELS = ("front_outer", "front_inner")
 @pytest.fixture(scope="module")
 def wheelset():
     """The wheelset of the paper, coarsely; some designs vibrate by themselves."""
-    cfg = config.stage(config.load(CONFIG), "paper", "wheelset_designs")
+    cfg = used_values(load(CONFIG), "paper", "wheelset_designs")
     cfg["numerics"] = {
         "c_T_points": 9, "d_T_points": 6, "frequency_points": 150, "map_points": 9,
     }  # fmt: skip
-    found = wheelset_designs(cfg)
+    found = wheelset_designs.compute(cfg)
     unstable = found["instability"] != 0
     assert 0 < np.count_nonzero(unstable) < unstable.size
     for name in ("receptance_amplitude", "peak_receptance", "peak_frequency"):
@@ -64,7 +66,7 @@ def made_up_bogie(wheels=WHEELS, c_T_points=7, stable_below=4e5):
 
 
 def made_page(folder: Path, wheelset: dict, bogie: dict, label: str = HOSTILE) -> Path:
-    cfg = config.stage(config.load(CONFIG), "paper", "explorer") | {"label": label}
+    cfg = used_values(load(CONFIG), "paper", "explorer") | {"label": label}
     paths = {}
     for name, values in (("wheelset_designs", wheelset), ("bogie_designs", bogie)):
         paths[name] = str(folder / f"{name}.nc")

@@ -13,8 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from tramdva import figures, results
-from tramdva.registry import STAGES
+from tramdva import results
+from tramdva.report import figures
+from tramdva.variables.registry import STAGES
 
 CFG = {
     "label": "A $ line",

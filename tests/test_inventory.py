@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 from test_results import values_of
 
-from tramdva import config, inventory, results
-from tramdva.provenance import code_hash
-from tramdva.registry import STAGES
+from tramdva import results
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import USES, used_values
+from tramdva.record import inventory
+from tramdva.running.code_hash import code_hash
+from tramdva.variables.registry import STAGES
 
 PATH = Path("results/paper/hopf_points.nc")
 ASIDE = Path("results/paper/hopf_points.nc.set-aside")
@@ -28,14 +31,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def look(root: Path):
     """Look through the results with the paper's configuration."""
-    configuration = config.load(root / "config")
+    configuration = load(root / "config")
     return lambda: inventory.set_aside_unusable(configuration, root / "workflow/scripts")
 
 
 def write(root: Path, path: Path = PATH, stage: str = "hopf_points", **changes) -> None:
     """Write a result that fits the configuration and the code, but for the changes."""
-    known = stage in config.STAGES
-    cfg = config.stage(config.load(root / "config"), "paper", stage) if known else {}
+    known = stage in USES
+    cfg = used_values(load(root / "config"), "paper", stage) if known else {}
     code = code_hash(root / f"workflow/scripts/{stage}.py")
     stamps = {"parameters": cfg, "code": code} | changes
     results.save(path, stage, values_of(stage), **stamps)

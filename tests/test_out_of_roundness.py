@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tramdva import out_of_roundness as oor
+from tramdva.evolution import out_of_roundness as oor
 
 
 def uniform(count: int) -> np.ndarray:

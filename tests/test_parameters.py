@@ -10,9 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tramdva import parameters, schema
+from tramdva.configuration import reference
+from tramdva.configuration.line import Line
+from tramdva.configuration.run import Run
+from tramdva.wheelset import parameters
 
-ENTRIES = schema.entries(parameters.Line) | schema.entries(parameters.Run)
+ENTRIES = reference.entries(Line) | reference.entries(Run)
 
 
 def test_every_number_has_unit_range_and_meaning() -> None:
@@ -79,7 +82,7 @@ def test_a_number_is_in_range_or_refused(value: object) -> None:
     ],
 )
 def test_numbers_are_written_short(value: float, text: str) -> None:
-    assert schema.short(value) == text
+    assert reference.short(value) == text
     assert float(text) == value
 
 
@@ -87,22 +90,22 @@ def test_generated_files_are_current(root: Path) -> None:
     """Rewrite them by `python -m tramdva.schema config`."""
     readme = (root / "config/README.md").read_text(encoding="utf-8")
 
-    assert json.loads((root / "config/schema.json").read_text()) == schema.json_schema()
-    assert schema.with_table(readme) == readme
+    assert json.loads((root / "config/schema.json").read_text()) == reference.json_schema()
+    assert reference.with_table(readme) == readme
 
 
 def test_generated_files_are_rewritten(root: Path, tmp_path: Path) -> None:
     readme = (root / "config/README.md").read_text(encoding="utf-8")
     (tmp_path / "README.md").write_text(readme.replace("Table 1", "Table 9"), encoding="utf-8")
 
-    schema.main(tmp_path)
+    reference.main(tmp_path)
 
     for name in ("README.md", "schema.json"):
         assert (tmp_path / name).read_bytes() == (root / "config" / name).read_bytes()
 
 
 def test_schema_fits_the_files(root: Path) -> None:
-    validator = jsonschema.Draft202012Validator(schema.json_schema())
+    validator = jsonschema.Draft202012Validator(reference.json_schema())
     for path in [*root.glob("config/*.yaml"), *root.glob("config/lines/*.yaml")]:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
         assert not list(validator.iter_errors(content)), path

@@ -10,9 +10,9 @@ import pytest
 from browser import Watched, chromium
 
 from tramdva import results
-from tramdva.config import load_or_exit
-from tramdva.config import stage as values_of
-from tramdva.registry import STAGES
+from tramdva.configuration.reading import load_or_exit
+from tramdva.configuration.uses import used_values as values_of
+from tramdva.variables.registry import STAGES
 
 FIGURES = [
     "fig02_stability_map",

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from tramdva import provenance
-from tramdva.provenance import code_hash, use_numba_cache
+from tramdva.running.code_hash import WITHOUT_EFFECT, code_hash, reached_modules
+from tramdva.running.numba_cache import use_numba_cache
 
 SOURCES = {
     "__init__.py": '"""Nomenclature."""\n',
@@ -155,8 +155,8 @@ def test_reached_modules_are_those_that_python_loads(root: Path) -> None:
     )
 
     for script, loaded in json.loads(ran.stdout).items():
-        reached = provenance.reached_modules(Path(script))
-        assert reached == set(loaded) - provenance.WITHOUT_EFFECT, script
+        reached = reached_modules(Path(script))
+        assert reached == set(loaded) - WITHOUT_EFFECT, script
 
 
 def test_all_scripts_are_hashed_in_two_seconds(root: Path) -> None:

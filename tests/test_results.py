@@ -22,7 +22,7 @@ from tramdva import (
     results,
     wheelset_variables,
 )
-from tramdva.registry import STAGES
+from tramdva.variables.registry import STAGES
 
 LENGTHS = {"absorber": 3, "design": 4, "frequency": 7, "multiplier": 6}
 

@@ -5,53 +5,62 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tramdva import config, evolution, robust_criterion, robust_tuning, robustness_sample
 from tramdva.bogie.absorber_ports import PortModes
 from tramdva.bogie.conditions import Conditions
-from tramdva.bogie.line import contact_geometry, quiet_bogie_line, run_through
 from tramdva.bogie.rough_wheels import rough_bogie
-from tramdva.evolution_stages import linear_response, wear_in_equilibrium
-from tramdva.robust_criterion import Criterion, Fleet
-from tramdva.robust_tuning import NOMINAL, PAPER, ROBUST
+from tramdva.bogie.tram import run_through
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.evolution.tendency import (
+    evolution_tendency,
+    linear_wear_response,
+    wear_sensitivity,
+)
+from tramdva.robustness import criterion
+from tramdva.robustness.criterion import Criterion, Fleet
+from tramdva.robustness.sample import assembled, cases, ranges, stored_ports
+from tramdva.stages import contact_geometry, robust_tuning, robustness_sample
+from tramdva.stages.bogie_sections import quiet_bogie_line
+from tramdva.stages.wheels_out_of_round import wearing
 
 ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.fixture(scope="module")
 def loaded():
-    return config.load(ROOT / "config", [ROOT / "config/quick.yaml"])
+    return load(ROOT / "config", [ROOT / "config/quick.yaml"])
 
 
 @pytest.fixture(scope="module")
 def geometry(loaded):
-    return contact_geometry(config.stage(loaded, "paper", "contact_geometry"))
+    return contact_geometry.compute(used_values(loaded, "paper", "contact_geometry"))
 
 
 def sample_settings(loaded, parts: int = 1) -> dict:
-    values = config.stage(loaded, "paper", "robustness_sample")
+    values = used_values(loaded, "paper", "robustness_sample")
     values["numerics"]["parts"] = parts
     return values
 
 
 @pytest.fixture(scope="module")
 def sample(loaded, geometry):
-    return robustness_sample.robustness_sample(sample_settings(loaded), geometry, 0)
+    return robustness_sample.compute(sample_settings(loaded), geometry, 0)
 
 
 @pytest.fixture(scope="module")
 def settings(loaded):
-    return config.stage(loaded, "paper", "robust_tuning")
+    return used_values(loaded, "paper", "robust_tuning")
 
 
 @pytest.fixture(scope="module")
 def tuned(settings, sample):
-    return robust_tuning.robust_tuning(settings, [sample])
+    return robust_tuning.compute(settings, [sample])
 
 
 def test_cases_are_the_line_then_single_ranges_then_a_sequence(loaded):
     study = sample_settings(loaded)["study"]
-    limits = np.array(list(robustness_sample.ranges(study).values()))
-    varied, shares = robustness_sample.cases(study, 6, 1)
+    limits = np.array(list(ranges(study).values()))
+    varied, shares = cases(study, 6, 1)
     single, count = 2 * len(Conditions._fields), len(limits)
 
     assert varied[0] == "none"
@@ -65,8 +74,7 @@ def test_cases_are_the_line_then_single_ranges_then_a_sequence(loaded):
     assert (drawn >= limits[:, 0]).all()
     assert (drawn <= limits[:, 1]).all()
     again, more, other = (
-        robustness_sample.cases(study, number, seed)[1][1 + single :]
-        for number, seed in ((6, 1), (40, 1), (6, 2))
+        cases(study, number, seed)[1][1 + single :] for number, seed in ((6, 1), (40, 1), (6, 2))
     )
     np.testing.assert_array_equal(again, drawn)
     np.testing.assert_array_equal(more[:6], drawn)
@@ -75,8 +83,8 @@ def test_cases_are_the_line_then_single_ranges_then_a_sequence(loaded):
 
 def test_sequence_fills_the_ranges_evenly(loaded):
     study = sample_settings(loaded)["study"]
-    limits = np.array(list(robustness_sample.ranges(study).values()))
-    _, shares = robustness_sample.cases(study, 64, 1)
+    limits = np.array(list(ranges(study).values()))
+    _, shares = cases(study, 64, 1)
     place = (shares[-64:] - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     # Each of 64 equal intervals of each range holds one point: that is what a Sobol net means.
     cells = np.sort(np.floor(64 * place), axis=0)
@@ -86,7 +94,7 @@ def test_sequence_fills_the_ranges_evenly(loaded):
 def test_parts_make_the_whole_bit_for_bit(loaded, geometry, sample):
     cfg = sample_settings(loaded, parts=11)
     for part in (4, 10):
-        own = robustness_sample.robustness_sample(cfg, geometry, part)
+        own = robustness_sample.compute(cfg, geometry, part)
         rows = own["case"].astype(int)
         assert rows.size
         for name, values in own.items():
@@ -96,7 +104,7 @@ def test_parts_make_the_whole_bit_for_bit(loaded, geometry, sample):
             np.testing.assert_array_equal(values, whole, err_msg=name)
     halves = [{n: v[k::2] if n == "case" or v.shape[:1] == sample["case"].shape else v
                for n, v in sample.items()} for k in (1, 0)]  # fmt: skip
-    for name, values in robustness_sample.assembled(halves).items():
+    for name, values in assembled(halves).items():
         np.testing.assert_array_equal(values, sample[name], err_msg=name)
 
 
@@ -113,10 +121,12 @@ def test_case_is_the_line_computed_directly(loaded, geometry, sample):
     line = quiet_bogie_line(direct, geometry)
     run = run_through(line, cfg["numerics"]["curvature_steps"])
     bogie = rough_bogie(run.curve, run.equilibrium)
-    worn = wear_in_equilibrium(cfg, bogie, run.curve.contacts.law)
-    frequency = sample["frequency"][row]
-    expected = linear_response(cfg, bogie, worn, frequency, line.track.speed, 0.3).T
-    found = robustness_sample.stored_ports(sample).output_by_wave[row]
+    wheels = wearing(cfg)
+    worn = wear_sensitivity(bogie, run.curve.contacts.law, wheels)
+    frequency, speed = sample["frequency"][row], line.track.speed
+    response = linear_wear_response(bogie, worn, frequency, speed, 0.3, wheels.wheels)
+    expected = response[:, wheels.places]
+    found = stored_ports(sample).output_by_wave[row]
     np.testing.assert_allclose(found, expected, rtol=1e-5)
 
 
@@ -148,10 +158,10 @@ def test_optimum_for_one_mass_is_that_of_chatter_suppression():
     # Sims, J. Sound Vib. 301 (2007): absorber for the least negative real part of a receptance.
     mu = 0.05
     one = oscillator(np.linspace(0.5, 1.8, 4001))
-    reference = robust_criterion.references(one.largest(None), one.steady)
+    reference = criterion.references(one.largest(None), one.steady)
     quiet = Criterion(one, reference, np.ones(1, bool), ((1.0, 1.0),), lambda case, design: -1.0)
     grid_c, grid_d = np.linspace(0.02, 0.12, 15), np.linspace(0.001, 0.05, 15)
-    best, _ = robust_criterion.optimum(quiet, grid_c, grid_d, [])
+    best, _ = criterion.optimum(quiet, grid_c, grid_d, [])
 
     ratio = np.sqrt((mu + 2.0 + np.sqrt(2.0 * mu + mu**2)) / (2.0 * (1.0 + mu) ** 2))
     assert best.status == "converged"
@@ -169,11 +179,11 @@ def test_optimum_for_one_mass_is_that_of_chatter_suppression():
 
 def test_tolerance_ends_where_the_factor_exceeds_its_share():
     one = oscillator(np.linspace(0.5, 1.8, 2001))
-    reference = robust_criterion.references(one.largest(None), one.steady)
+    reference = criterion.references(one.largest(None), one.steady)
     quiet = Criterion(one, reference, np.ones(1, bool), ((1.0, 1.0),), lambda case, design: -1.0)
     c_T, d_T = np.linspace(0.02, 0.12, 15), np.linspace(0.001, 0.012, 15)
-    best, _ = robust_criterion.optimum(quiet, c_T, d_T, [])
-    band = robust_criterion.tolerance(quiet, best, 0.1, c_T, d_T, [])
+    best, _ = criterion.optimum(quiet, c_T, d_T, [])
+    band = criterion.tolerance(quiet, best, 0.1, c_T, d_T, [])
 
     for end in band[0]:
         assert quiet.worst((end, best.design[1])) == pytest.approx(1.1 * best.factor, rel=2e-3)
@@ -183,7 +193,7 @@ def test_tolerance_ends_where_the_factor_exceeds_its_share():
     # A case that begins to vibrate by itself ends the band as well.
     end = best.design[0] + 0.3 * (band[0, 1] - best.design[0])
     restless = quiet._replace(growth=lambda case, design: design[0] - end)
-    narrow = robust_criterion.tolerance(restless, best, 0.1, c_T, d_T, [0])
+    narrow = criterion.tolerance(restless, best, 0.1, c_T, d_T, [0])
     assert narrow[0, 1] == pytest.approx(end, rel=1e-3)
     assert narrow[0, 0] == pytest.approx(band[0, 0], rel=1e-3)
 
@@ -191,38 +201,45 @@ def test_tolerance_ends_where_the_factor_exceeds_its_share():
 def test_references_are_never_below_the_line_as_configured():
     bare = np.array([[0.2, 0.1], [0.5, 0.9], [0.1, 0.0], [7.0, 7.0]])
     steady = np.array([True, True, True, False])
-    np.testing.assert_array_equal(robust_criterion.references(bare, steady), [0.2, 0.9, 0.2, 0.2])
+    np.testing.assert_array_equal(criterion.references(bare, steady), [0.2, 0.9, 0.2, 0.2])
     calm = np.array([[-1.0], [0.5], [0.3]])
-    np.testing.assert_array_equal(
-        robust_criterion.references(calm, np.ones(3, bool)), [0.5, 0.5, 0.5]
-    )
-    assert np.isnan(robust_criterion.references(-np.abs(bare), steady)).all()
+    np.testing.assert_array_equal(criterion.references(calm, np.ones(3, bool)), [0.5, 0.5, 0.5])
+    assert np.isnan(criterion.references(-np.abs(bare), steady)).all()
 
 
 def test_robust_optimum_is_better_than_others_in_the_worst_case(settings, sample, tuned):
     assert list(tuned["status"]) == ["converged"] * 4
-    assert tuned["worst_factor"][ROBUST] < tuned["worst_factor"][NOMINAL]
-    assert tuned["worst_factor"][ROBUST] < tuned["worst_factor"][PAPER]
-    assert tuned["nominal_factor"][NOMINAL] < tuned["nominal_factor"][ROBUST]
-    assert tuned["self_excited_cases"][ROBUST] == 0.0
-    assert tuned["worst_factor"][ROBUST] <= np.nanmin(tuned["map_worst_factor"]) * (1 + 1e-9)
-    assert tuned["nominal_factor"][NOMINAL] <= np.nanmin(tuned["map_nominal_factor"]) * (1 + 1e-9)
+    assert (
+        tuned["worst_factor"][robust_tuning.ROBUST] < tuned["worst_factor"][robust_tuning.NOMINAL]
+    )
+    assert tuned["worst_factor"][robust_tuning.ROBUST] < tuned["worst_factor"][robust_tuning.PAPER]
+    assert (
+        tuned["nominal_factor"][robust_tuning.NOMINAL]
+        < tuned["nominal_factor"][robust_tuning.ROBUST]
+    )
+    assert tuned["self_excited_cases"][robust_tuning.ROBUST] == 0.0
+    assert tuned["worst_factor"][robust_tuning.ROBUST] <= np.nanmin(tuned["map_worst_factor"]) * (
+        1 + 1e-9
+    )
+    assert tuned["nominal_factor"][robust_tuning.NOMINAL] <= np.nanmin(
+        tuned["map_nominal_factor"]
+    ) * (1 + 1e-9)
     # Every case that counts is at most the worst, whatever its own shares of the rubber are.
-    whole = tuned["factor"][ROBUST, tuned["counted"] & (tuned["varied"] != "all")]
-    assert np.nanmax(whole) <= tuned["worst_factor"][ROBUST] * (1 + 1e-9)
+    whole = tuned["factor"][robust_tuning.ROBUST, tuned["counted"] & (tuned["varied"] != "all")]
+    assert np.nanmax(whole) <= tuned["worst_factor"][robust_tuning.ROBUST] * (1 + 1e-9)
 
 
 def test_robust_optimum_is_that_of_a_brute_force_grid(settings, sample, tuned):
-    whole = robust_criterion.fleet(sample, 2.0)
+    whole = criterion.fleet(sample, 2.0)
     _, robust = robust_tuning._criteria(settings, sample, whole)
     robust = robust._replace(counted=tuned["counted"][whole.case])
-    c, d = tuned["c_T"][ROBUST], tuned["d_T"][ROBUST]
+    c, d = tuned["c_T"][robust_tuning.ROBUST], tuned["d_T"][robust_tuning.ROBUST]
     around = [
         robust.worst((c * a, d * b))
         for a in np.linspace(0.7, 1.4, 15)
         for b in np.linspace(0.5, 1.8, 15)
     ]
-    assert min(around) >= tuned["worst_factor"][ROBUST] * (1.0 - 5e-3)
+    assert min(around) >= tuned["worst_factor"][robust_tuning.ROBUST] * (1.0 - 5e-3)
 
 
 def test_without_ranges_the_robust_optimum_is_the_nominal_one(settings, sample):
@@ -232,22 +249,25 @@ def test_without_ranges_the_robust_optimum_is_the_nominal_one(settings, sample):
     }
     fixed = {"min": 1.0, "max": 1.0}
     study = settings["study"] | {"rubber": {"stiffness": fixed, "damping": fixed}}
-    found = robust_tuning.robust_tuning({**settings, "study": study}, [alone])
+    found = robust_tuning.compute({**settings, "study": study}, [alone])
     for name in ("c_T", "d_T"):
-        assert found[name][ROBUST] == found[name][NOMINAL]
-    assert found["worst_factor"][ROBUST] == found["nominal_factor"][NOMINAL]
+        assert found[name][robust_tuning.ROBUST] == found[name][robust_tuning.NOMINAL]
+    assert (
+        found["worst_factor"][robust_tuning.ROBUST]
+        == found["nominal_factor"][robust_tuning.NOMINAL]
+    )
 
 
 def test_response_as_configured_is_that_of_the_attached_absorber(settings, sample, tuned):
     """The factor and the peaks from the same case by the response itself."""
-    ports = robustness_sample.stored_ports(sample)
-    modes = robust_criterion.fleet(sample, 2.0).modes.at(0)
+    ports = stored_ports(sample)
+    modes = criterion.fleet(sample, 2.0).modes.at(0)
     band, axis = settings["study"]["design_band"], sample["frequency"][0]
     inside = (axis >= band["min"]) & (axis <= band["max"])
-    with_it = evolution.evolution_tendency(modes.response(2.0, 1.74e5, 300.0))[inside].max()
-    bare = evolution.evolution_tendency(ports.output_by_wave[0])[inside].max()
-    assert tuned["factor"][PAPER, 0] == pytest.approx(with_it / bare, rel=1e-12)
-    assert tuned["nominal_factor"][PAPER] == pytest.approx(with_it / bare, rel=1e-12)
+    with_it = evolution_tendency(modes.response(2.0, 1.74e5, 300.0))[inside].max()
+    bare = evolution_tendency(ports.output_by_wave[0])[inside].max()
+    assert tuned["factor"][robust_tuning.PAPER, 0] == pytest.approx(with_it / bare, rel=1e-12)
+    assert tuned["nominal_factor"][robust_tuning.PAPER] == pytest.approx(with_it / bare, rel=1e-12)
 
 
 def changed(sample, **values):
@@ -266,11 +286,11 @@ def test_a_case_that_no_absorber_calms_does_not_count(settings, sample):
     other = changed(
         sample, eigenvalue_real=value, mode_forcing_real=forcing, mode_forcing_imag=imag
     )
-    found = robust_tuning.robust_tuning(settings, [other])
+    found = robust_tuning.compute(settings, [other])
 
     assert not found["counted"][row]
     assert found["counted"].sum() == len(found["counted"]) - 1
-    assert found["status"][ROBUST] == "converged"
+    assert found["status"][robust_tuning.ROBUST] == "converged"
     assert (found["growth_rate"][1:, row] >= 5.0 - 1e-9).all()
     assert np.isnan(found["factor"][1:, row]).all()
 
@@ -282,17 +302,20 @@ def test_where_nothing_grows_there_is_no_optimum(settings, sample):
         wear_by_force_real=np.zeros_like(sample["wear_by_force_real"]),
         wear_by_force_imag=np.zeros_like(sample["wear_by_force_imag"]),
     )
-    found = robust_tuning.robust_tuning(settings, [flat])
-    assert list(found["status"][[NOMINAL, ROBUST]]) == ["nothing_grows"] * 2
-    assert np.isnan(found["c_T"][[NOMINAL, ROBUST]]).all()
+    found = robust_tuning.compute(settings, [flat])
+    assert (
+        list(found["status"][[robust_tuning.NOMINAL, robust_tuning.ROBUST]])
+        == ["nothing_grows"] * 2
+    )
+    assert np.isnan(found["c_T"][[robust_tuning.NOMINAL, robust_tuning.ROBUST]]).all()
     assert np.isnan(found["factor"]).all()
-    assert np.isfinite(found["stroke_amplitude"][PAPER]).all()
+    assert np.isfinite(found["stroke_amplitude"][robust_tuning.PAPER]).all()
 
 
 def test_without_steady_running_the_status_says_so(settings, sample):
     status = sample["status"].copy()
     status[0] = "wheel_lifted"
-    found = robust_tuning.robust_tuning(settings, [changed(sample, status=status)])
+    found = robust_tuning.compute(settings, [changed(sample, status=status)])
     assert set(found["status"]) == {"no_equilibrium"}
     assert np.isnan(found["factor"]).all()
 
@@ -304,8 +327,10 @@ def test_a_case_without_equilibrium_is_left_out(settings, sample, tuned):
         if name.endswith(("_real", "_imag")):
             broken[name] = values.copy()
             broken[name][-1] = np.nan
-    found = robust_tuning.robust_tuning(settings, [changed(sample, status=status, **broken)])
+    found = robust_tuning.compute(settings, [changed(sample, status=status, **broken)])
     assert not found["counted"][-1]
     assert np.isnan(found["growth_rate"][1:, -1]).all()
-    assert found["c_T"][NOMINAL] == tuned["c_T"][NOMINAL]
-    assert found["worst_factor"][ROBUST] <= tuned["worst_factor"][ROBUST] * (1 + 1e-6)
+    assert found["c_T"][robust_tuning.NOMINAL] == tuned["c_T"][robust_tuning.NOMINAL]
+    assert found["worst_factor"][robust_tuning.ROBUST] <= tuned["worst_factor"][
+        robust_tuning.ROBUST
+    ] * (1 + 1e-6)

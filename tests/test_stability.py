@@ -6,8 +6,9 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 from wheelset_lines import paper, sections
 
-from tramdva import stability
-from tramdva.wheelset import linearised
+from tramdva.stages import stability_map
+from tramdva.wheelset import stability
+from tramdva.wheelset.model import linearised
 
 VARIANTS = [(4e7, 7500.0), (3e7, 7500.0), (2e7, 7500.0), (1e7, 7500.0)]
 
@@ -85,7 +86,7 @@ def test_map_agrees_with_eigenvalues_at_every_grid_point():
         },
         "numerics": {"points": 41},
     }
-    out = stability.stability_map(cfg)
+    out = stability_map.compute(cfg)
     assert out["growth_rate"].shape == (5, 41, 41)
     for prefix in ("", "absorber_"):
         assert out[f"{prefix}routh_hurwitz_agrees"].all()

@@ -5,15 +5,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tramdva import (
-    absorber,
-    critical_absorber,
-    results,
-    self_excitation,
-    stability,
-    sustained_vibration,
+from tramdva import results
+from tramdva.configuration.reading import load_or_exit
+from tramdva.configuration.uses import used_values
+from tramdva.stages import (
+    absorber_tuning,
+    critical_hopf_curve,
+    cycle_amplitudes,
+    frequency_response,
+    hopf_curves,
+    hopf_points,
+    limit_cycles,
+    stability_map,
 )
-from tramdva.config import load_or_exit, stage
 
 LINES = {
     "quiet": "creep_force: {B: 0.3}",
@@ -50,20 +54,20 @@ def run_stages(configuration, folder: Path) -> dict[str, dict[str, np.ndarray]]:
     found: dict[str, dict[str, np.ndarray]] = {"line": {"name": np.array(name)}}
 
     def run(stage_name, function, *upstream):
-        cfg = stage(configuration, name, stage_name)
+        cfg = used_values(configuration, name, stage_name)
         values = function(cfg, *(found[other] for other in upstream))
         path = folder / f"{stage_name}.nc"
         results.save(path, stage_name, values, parameters=cfg, code="")
         found[stage_name] = results.read(path)
 
-    run("stability_map", stability.stability_map)
-    run("hopf_points", self_excitation.hopf_points, "stability_map")
-    run("limit_cycles", sustained_vibration.limit_cycles, "hopf_points")
-    run("hopf_curves", critical_absorber.hopf_curves)
-    run("critical_hopf_curve", critical_absorber.critical_hopf_curve, "hopf_curves")
-    run("cycle_amplitudes", sustained_vibration.cycle_amplitudes, "critical_hopf_curve")
-    run("absorber_tuning", absorber.absorber_tuning, "critical_hopf_curve")
-    run("frequency_response", absorber.frequency_response, "absorber_tuning")
+    run("stability_map", stability_map.compute)
+    run("hopf_points", hopf_points.compute, "stability_map")
+    run("limit_cycles", limit_cycles.compute, "hopf_points")
+    run("hopf_curves", hopf_curves.compute)
+    run("critical_hopf_curve", critical_hopf_curve.compute, "hopf_curves")
+    run("cycle_amplitudes", cycle_amplitudes.compute, "critical_hopf_curve")
+    run("absorber_tuning", absorber_tuning.compute, "critical_hopf_curve")
+    run("frequency_response", frequency_response.compute, "absorber_tuning")
     return found
 
 

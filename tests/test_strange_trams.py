@@ -7,7 +7,7 @@ import pytest
 import strange_trams
 from strange_trams import BASIC, BASIC_JOBS, BOGIE, NEAR, Job, Outcome, Tram
 
-from tramdva.parameters import Line
+from tramdva.configuration.line import Line
 
 
 @pytest.mark.parametrize("number", [77, 86])

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from tramdva import results, supervision
+from tramdva import results
+from tramdva.running import supervision
 
 LOCK = Path(".snakemake/locks/0.output.lock")
 

@@ -4,7 +4,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from wheelset_lines import paper, reference
 
-from tramdva import self_excitation, sustained_vibration, wheelset
+from tramdva.wheelset import cycles, hopf, model
 
 NUMERICS = {"mesh_intervals": 100, "degree": 4, "tolerance": 1e-10, "max_orbits": 400}
 
@@ -13,9 +13,9 @@ def branch_over_c_A(mounted, intervals=100):
     values = paper(c_A=4.7e7)
     if mounted:
         values = values._replace(c_A=6.2e7, c_T=2e7, d_T=7500.0)
-    start = self_excitation.solve_hopf_point(values, mounted, "c_A")
+    start = hopf.solve_hopf_point(values, mounted, "c_A")
     numerics = {**NUMERICS, "mesh_intervals": intervals}
-    return start, sustained_vibration.limit_cycle_branch(start, "c_A", (1e7, 4e8), numerics)
+    return start, cycles.limit_cycle_branch(start, "c_A", (1e7, 4e8), numerics)
 
 
 @pytest.mark.parametrize(
@@ -32,10 +32,10 @@ def test_limit_cycles_of_the_reference(mounted, table):
         # c_A is printed to 0.01 N/m; the amplitude is the root of the distance to the Hopf point
         distance = min(abs(float(row["c_A"]) - end) for end in ends)
         printed = max(1e-7, 0.5 * 0.005 / distance)
-        cycle = sustained_vibration.cycle_at(branch, start.values, float(row["c_A"]))
-        extremes = sustained_vibration.orbit_extremes(cycle, start.values, mounted)
-        own = self_excitation.physical_values(start.values, mounted, cycle.parameters)
-        y_R0 = wheelset.equilibrium(own, mounted).y_R
+        cycle = cycles.cycle_at(branch, start.values, float(row["c_A"]))
+        extremes = cycles.orbit_extremes(cycle, start.values, mounted)
+        own = hopf.physical_values(start.values, mounted, cycle.parameters)
+        y_R0 = model.equilibrium(own, mounted).y_R
         assert_allclose(cycle.period * 1e-3, float(row["period_s"]), rtol=1e-9)
         assert_allclose(extremes.y_R_max - y_R0, float(row["dev_max_m"]), rtol=printed)
         assert_allclose(extremes.y_R_min - y_R0, float(row["dev_min_m"]), rtol=printed)
@@ -48,13 +48,13 @@ def test_limit_cycles_of_the_reference(mounted, table):
 def test_acceleration_is_that_of_a_long_time_integration():
     # the reference's accelerations are maxima over its mesh; here an integrator runs along
     start, branch = branch_over_c_A(mounted=False)
-    cycle = sustained_vibration.cycle_at(branch, start.values, 1.0e8)
-    own = self_excitation.physical_values(start.values, False, cycle.parameters)
-    units = wheelset.scaling(own, False)
+    cycle = cycles.cycle_at(branch, start.values, 1.0e8)
+    own = hopf.physical_values(start.values, False, cycle.parameters)
+    units = model.scaling(own, False)
     state = units.to_states(cycle.nodal[0])
     period = cycle.period * units.time
     out = solve_ivp(
-        lambda _, y: wheelset.accelerations(y[None], np.array(own))[0],
+        lambda _, y: model.accelerations(y[None], np.array(own))[0],
         (0.0, 20 * period),
         state,
         method="DOP853",
@@ -65,8 +65,8 @@ def test_acceleration_is_that_of_a_long_time_integration():
     assert_allclose(out.y[:, -1], state, atol=1e-9)  # a stable cycle: 20 periods later the same
     times = np.linspace(19 * period, 20 * period, 20001)
     states = out.sol(times).T
-    extremes = sustained_vibration.orbit_extremes(cycle, start.values, False)
-    a_R = wheelset.accelerations(states, np.array(own))[:, 3]
+    extremes = cycles.orbit_extremes(cycle, start.values, False)
+    a_R = model.accelerations(states, np.array(own))[:, 3]
     assert_allclose(extremes.a_R_max, np.abs(a_R).max(), rtol=1e-6)
     assert_allclose(extremes.y_R_max, states[:, 1].max(), atol=1e-11)
     assert_allclose(extremes.y_R_min, states[:, 1].min(), atol=1e-11)
@@ -75,11 +75,11 @@ def test_acceleration_is_that_of_a_long_time_integration():
 def test_an_attracted_orbit_settles_on_the_cycle():
     # from beside the unstable equilibrium, by an integrator that knows nothing of the cycle
     start, branch = branch_over_c_A(mounted=False)
-    cycle = sustained_vibration.cycle_at(branch, start.values, 1.0e8)
-    own = self_excitation.physical_values(start.values, False, cycle.parameters)
-    state = wheelset.equilibrium_state(own, False) + np.array([0, 1e-4, 0, 0])
+    cycle = cycles.cycle_at(branch, start.values, 1.0e8)
+    own = hopf.physical_values(start.values, False, cycle.parameters)
+    state = model.equilibrium_state(own, False) + np.array([0, 1e-4, 0, 0])
     out = solve_ivp(
-        lambda _, y: wheelset.accelerations(y[None], np.array(own))[0],
+        lambda _, y: model.accelerations(y[None], np.array(own))[0],
         (0.0, 3.0),
         state,
         method="DOP853",
@@ -88,7 +88,7 @@ def test_an_attracted_orbit_settles_on_the_cycle():
         dense_output=True,
     )
     late = out.sol(np.linspace(2.9, 3.0, 20001))[1]
-    extremes = sustained_vibration.orbit_extremes(cycle, start.values, False)
+    extremes = cycles.orbit_extremes(cycle, start.values, False)
     assert_allclose([late.min(), late.max()], [extremes.y_R_min, extremes.y_R_max], atol=2e-10)
 
 
@@ -100,10 +100,10 @@ def test_amplitudes_converge_with_the_mesh():
         start, branch = branch_over_c_A(mounted=False, intervals=intervals)
         worst = 0.0
         for c_A, deviation in exact.items():
-            cycle = sustained_vibration.cycle_at(branch, start.values, c_A)
-            extremes = sustained_vibration.orbit_extremes(cycle, start.values, False)
-            own = self_excitation.physical_values(start.values, False, cycle.parameters)
-            y_R0 = wheelset.equilibrium(own, False).y_R
+            cycle = cycles.cycle_at(branch, start.values, c_A)
+            extremes = cycles.orbit_extremes(cycle, start.values, False)
+            own = hopf.physical_values(start.values, False, cycle.parameters)
+            y_R0 = model.equilibrium(own, False).y_R
             worst = max(worst, abs((extremes.y_R_max - y_R0) / deviation - 1.0))
         errors[intervals] = worst
     assert errors[20] < 5e-7
@@ -114,10 +114,10 @@ def test_amplitudes_converge_with_the_mesh():
 def test_subcritical_hopf_points_and_their_fold():
     # a = b = 6.5 mm: Hopf point 46.710273e6, fold of cycles 46.709258e6 N/m
     values = paper(c_A=4.67e7, C_22=paper().C_22 * (6.5 / 4.2) ** 2)
-    start = self_excitation.solve_hopf_point(values, False, "c_A")
+    start = hopf.solve_hopf_point(values, False, "c_A")
     assert_allclose(start.values.c_A, 46.710273e6, rtol=2e-8)  # digits given by the source
     assert start.first_lyapunov_coefficient > 0.0
-    branch = sustained_vibration.limit_cycle_branch(start, "c_A", (1e7, 4e8), NUMERICS)
+    branch = cycles.limit_cycle_branch(start, "c_A", (1e7, 4e8), NUMERICS)
     folds = [c_A for kind, c_A in branch.special if kind == "fold"]
     assert_allclose(folds[0], 46.709258e6, rtol=2e-8)
     assert not branch.cycles[0].stable
@@ -128,13 +128,13 @@ def test_subcritical_hopf_points_and_their_fold():
 def test_amplitudes_over_the_absorber_stiffness():
     rows = reference("auto/cycle_amplitude_dT_7500.csv")
     values = paper(c_A=float(rows[0]["c_A"]), c_T=1.7126e7, d_T=7500.0)
-    start = self_excitation.solve_hopf_point(values, True, "c_T")
+    start = hopf.solve_hopf_point(values, True, "c_T")
     assert_allclose(start.values.c_T, 17125790.14, rtol=1e-8)
     numerics = {**NUMERICS, "mesh_intervals": 60}
-    branch = sustained_vibration.limit_cycle_branch(start, "c_T", (1e6, 2.2e8), numerics)
+    branch = cycles.limit_cycle_branch(start, "c_T", (1e6, 2.2e8), numerics)
     for row in rows[::3]:
-        cycle = sustained_vibration.cycle_at(branch, start.values, float(row["c_T"]))
-        extremes = sustained_vibration.orbit_extremes(cycle, start.values, True)
+        cycle = cycles.cycle_at(branch, start.values, float(row["c_T"]))
+        extremes = cycles.orbit_extremes(cycle, start.values, True)
         distance = max(abs(extremes.y_R_max - 1.5), abs(extremes.y_R_min - 1.5))
         assert_allclose(distance, float(row["max_abs_yR_minus_L_m"]), rtol=1e-7)
         assert_allclose(cycle.period * 1e-3, float(row["period_s"]), rtol=1e-9)
@@ -142,10 +142,10 @@ def test_amplitudes_over_the_absorber_stiffness():
 
 def test_numbers_of_figure_6_at_d_T_7500():
     values = paper(c_A=84530519.74, c_T=1.7126e7, d_T=7500.0)
-    start = self_excitation.solve_hopf_point(values, True, "c_T")
+    start = hopf.solve_hopf_point(values, True, "c_T")
     onset = start.values.c_T
-    branch = sustained_vibration.limit_cycle_branch(start, "c_T", (1e6, 2.2e8), NUMERICS)
+    branch = cycles.limit_cycle_branch(start, "c_T", (1e6, 2.2e8), NUMERICS)
     for c_T, millimetres in ((1.0005 * onset, 0.419), (1.05 * onset, 0.641), (2e8, 0.743)):
-        cycle = sustained_vibration.cycle_at(branch, start.values, c_T)
-        extremes = sustained_vibration.orbit_extremes(cycle, start.values, True)
+        cycle = cycles.cycle_at(branch, start.values, c_T)
+        extremes = cycles.orbit_extremes(cycle, start.values, True)
         assert_allclose(1.5 - extremes.y_R_min, millimetres * 1e-3, atol=6e-7)

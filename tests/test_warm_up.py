@@ -4,7 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tramdva import provenance
+from tramdva.running import numba_cache
 
 PROGRAM = Path(__file__).parent / "stages_after_warm_up.py"
 
@@ -38,7 +38,7 @@ def test_kernels_are_compiled_once(tmp_path, monkeypatch, capfd):
 
     def compiles(body: str = "pass") -> bool:
         (stub / "warm_up.py").write_text(f"def compile_kernels():\n    {body}\n")
-        provenance.compile_kernels_once(stub)
+        numba_cache.compile_kernels_once(stub)
         return "tramdva: compiling" in capfd.readouterr().out
 
     assert compiles("raise SystemExit(1)")

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from tramdva import wear
 from tramdva.contact import fastsim, kalker, traction_field
+from tramdva.wear.chart import WearChart, wear_coefficient
+from tramdva.wear.passages import archard_depth, region_shares
 
 FLEXIBILITY = kalker.kalker_table(0.28)
 
@@ -19,9 +20,9 @@ def patch(load=35e3, creepages=(0.0, 0.04, 0.0), a=4e-3, b=4e-3, cells=20, frict
 
 
 def depth(field, speed=4.0, **changes):
-    chart = wear.WearChart(**changes)
+    chart = WearChart(**changes)
     strips = np.zeros(field.area.shape[1])
-    area = wear.archard_depth(field, speed, chart.as_array(), strips)
+    area = archard_depth(field, speed, chart.as_array(), strips)
     return strips, area
 
 
@@ -55,37 +56,35 @@ def test_wear_is_linear_in_load_at_a_given_patch_and_in_sliding_distance():
 
 
 def test_chart_regions_and_limits():
-    chart = wear.WearChart().as_array()
+    chart = WearChart().as_array()
     p = 1e9
     for velocity, k in [(0.1, 5e-4), (0.19999, 5e-4), (0.2, 35e-4), (0.7, 35e-4), (0.70001, 5e-4)]:
-        assert wear.wear_coefficient(p, velocity, chart) == k
+        assert wear_coefficient(p, velocity, chart) == k
     for velocity in (0.1, 0.4, 2.0):
-        assert wear.wear_coefficient(0.8001 * 2.7e9, velocity, chart) == 350e-4
+        assert wear_coefficient(0.8001 * 2.7e9, velocity, chart) == 350e-4
 
 
 def test_smoothed_chart_is_continuous_and_meets_the_chart_away_from_the_limits():
-    sharp, smooth = (wear.WearChart(method=m).as_array() for m in ("chart", "smoothed"))
+    sharp, smooth = (WearChart(method=m).as_array() for m in ("chart", "smoothed"))
     for p, v in [(1e9, 0.1), (1e9, 0.45), (1e9, 1.5), (2.6e9, 0.3)]:
-        assert_allclose(
-            wear.wear_coefficient(p, v, smooth), wear.wear_coefficient(p, v, sharp), rtol=1e-12
-        )
-    assert_allclose(wear.wear_coefficient(1e9, 0.2, smooth), 20e-4, rtol=1e-12)
+        assert_allclose(wear_coefficient(p, v, smooth), wear_coefficient(p, v, sharp), rtol=1e-12)
+    assert_allclose(wear_coefficient(1e9, 0.2, smooth), 20e-4, rtol=1e-12)
     velocity = np.linspace(0.0, 1.0, 10001)
-    k = np.array([wear.wear_coefficient(1e9, v, smooth) for v in velocity])
+    k = np.array([wear_coefficient(1e9, v, smooth) for v in velocity])
     assert np.abs(np.diff(k)).max() < 1.6 * 30e-4 * 1e-4 / 0.1
 
 
 def test_shares_of_the_patch_sum_to_one():
-    chart = wear.WearChart()
-    inner = wear.region_shares(patch(creepages=(0, 0.04, 0)), 4.0, chart)
+    chart = WearChart()
+    inner = region_shares(patch(creepages=(0, 0.04, 0)), 4.0, chart)
     assert_allclose(sum(inner.values()), 1.0, rtol=1e-12)
     # 0.16 m/s, below the limit of 0.2 m/s except where traction is released at the edges.
     assert inner["mild"] > 0.97
-    outer = wear.region_shares(patch(43e3, (0, 0.053, 1.0), 5e-3, 4e-3), 4.0, chart)
+    outer = region_shares(patch(43e3, (0, 0.053, 1.0), 5e-3, 4e-3), 4.0, chart)
     assert outer["severe"] > 0.5
-    seizure = wear.region_shares(patch(60e3, (0, 0.1, 0), 6e-3, 1e-3), 4.0, chart)
+    seizure = region_shares(patch(60e3, (0, 0.1, 0), 6e-3, 1e-3), 4.0, chart)
     assert seizure["seizure"] > 0.5
-    stick = wear.region_shares(patch(creepages=(0.0, 0.0, 0.0)), 4.0, chart)
+    stick = region_shares(patch(creepages=(0.0, 0.0, 0.0)), 4.0, chart)
     assert stick["adhesion"] == pytest.approx(1.0)
 
 
@@ -112,4 +111,4 @@ def test_the_steps_of_the_chart_leave_no_stairs_in_the_wear_of_a_patch():
 )  # fmt: skip
 def test_bad_charts_are_refused_in_one_line(change):
     with pytest.raises(ValueError, match=r"^[^\n]+$"):
-        wear.WearChart(**change)
+        WearChart(**change)

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
-from tramdva import wear, wear_derivative, wear_history
 from tramdva.contact import fastsim, kalker, patch
+from tramdva.wear.chart import WearChart, _share_above
+from tramdva.wear.gradient import worn_area, worn_area_gradient
+from tramdva.wear.passages import ContactHistory, depth_around, passages, wear_orders
 
 LAW = patch.contact_law(0.35, 0.36, 0.4)
 SPEED = 4.0
@@ -13,22 +15,18 @@ SPEED = 4.0
 STATE = np.array([4.5e-3, 3e-3, 36e3, 0.3, 0.01, 0.048, -1.2])
 
 
-def area_of(state: np.ndarray, cells: int, chart: wear.WearChart, speed: float = SPEED) -> float:
-    history = wear_history.ContactHistory(*(np.array([value]) for value in state))
+def area_of(state: np.ndarray, cells: int, chart: WearChart, speed: float = SPEED) -> float:
+    history = ContactHistory(*(np.array([value]) for value in state))
     grid = fastsim.patch_grid(cells, cells)
-    return float(
-        wear_history.passages(
-            history, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart
-        ).area[0]
-    )
+    return float(passages(history, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart).area[0])
 
 
 @pytest.mark.parametrize("method", ["chart", "smoothed", "constant"])
 @pytest.mark.parametrize("speed", [4.0, 9.0, 17.0])
 def test_two_implementations_give_the_same_wear_and_the_derivative(method, speed):
-    chart = wear.WearChart(method=method)
+    chart = WearChart(method=method)
     grid = fastsim.patch_grid(13, 13)
-    value, gradient = wear_derivative.worn_area_gradient(
+    value, gradient = worn_area_gradient(
         STATE, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart
     )
     np.testing.assert_allclose(value, area_of(STATE, 13, chart, speed), rtol=1e-12)
@@ -44,8 +42,8 @@ def test_two_implementations_give_the_same_wear_and_the_derivative(method, speed
 
 
 def test_derivative_in_seizure_pressure():
-    chart = wear.WearChart(hardness=8e8)  # peak pressure 1.27 GPa: the middle seizes
-    value, gradient = wear_derivative.worn_area_gradient(
+    chart = WearChart(hardness=8e8)  # peak pressure 1.27 GPa: the middle seizes
+    value, gradient = worn_area_gradient(
         STATE, LAW.kalker_table, LAW.shear_modulus, fastsim.patch_grid(16, 16), SPEED, chart
     )
     up, down = STATE.copy(), STATE.copy()
@@ -60,13 +58,13 @@ def test_the_share_of_a_cell_above_a_limit_is_that_of_a_linear_field():
     for along, across in ((1.0, 0.4), (0.2, 0.9), (0.7, 0.0)):
         for excess in (-0.6, -0.2, 0.0, 0.1, 0.55):
             field = excess + along * u[:, None] + across * u[None, :]
-            share = wear._share_above(excess, along, across)
+            share = _share_above(excess, along, across)
             np.testing.assert_allclose(share, np.mean(field > 0.0), atol=2e-3)
 
 
 def test_wear_has_no_stairs_in_the_slip():
     """The slope of the wear over the slip, which a sharp step per cell would make 0 or endless."""
-    chart = wear.WearChart()
+    chart = WearChart()
     slopes = []
     for cells in (12, 24, 48):
         creepages = np.linspace(0.047, 0.053, 61)
@@ -80,7 +78,7 @@ def test_wear_has_no_stairs_in_the_slip():
 
 def test_full_sliding_wears_by_load_times_slip():
     """Archard's law by hand: k N s / H, where every cell slides at the same velocity."""
-    chart = wear.WearChart(method="constant")
+    chart = WearChart(method="constant")
     state = np.array([4e-3, 4e-3, 35e3, 0.3, 0.0, 0.04, 0.0])
     expected = chart.coefficient_constant * 35e3 * 0.04 / chart.hardness
     # The slip loses what adhesion at the leading edge takes.
@@ -90,15 +88,15 @@ def test_full_sliding_wears_by_load_times_slip():
 
 
 def test_apart_there_is_no_wear():
-    history = wear_history.ContactHistory(*np.vstack([STATE, STATE]).T)
+    history = ContactHistory(*np.vstack([STATE, STATE]).T)
     history.normal_force[1] = 0.0
-    found = wear_history.passages(
+    found = passages(
         history,
         LAW.kalker_table,
         LAW.shear_modulus,
         fastsim.patch_grid(8, 8),
         SPEED,
-        wear.WearChart(),
+        WearChart(),
     )
     assert found.area[0] > 0.0
     assert found.area[1] == 0.0
@@ -109,7 +107,7 @@ def test_a_contact_that_moves_spreads_its_wear_and_loses_nothing():
     """Constant wear, angle theta + e sin(n theta): Bessel's functions of whole orders."""
     theta = 2.0 * np.pi * np.arange(2048) / 2048
     order, swing = 6, 0.05
-    found = wear_history.wear_orders(np.full(2048, 3e-9), theta + swing * np.sin(order * theta), 30)
+    found = wear_orders(np.full(2048, 3e-9), theta + swing * np.sin(order * theta), 30)
     np.testing.assert_allclose(found[0], 3e-9)
     for multiple in (1, 2, 3):
         expected = 2.0 * 3e-9 * jv(-multiple, multiple * order * swing)
@@ -119,14 +117,14 @@ def test_a_contact_that_moves_spreads_its_wear_and_loses_nothing():
 def test_wear_of_several_revolutions_is_averaged():
     theta = 2.0 * np.pi * np.arange(3 * 256) / 256
     area = 1e-9 * (2.0 + np.cos(5.0 * theta + 0.4) + 0.3 * np.cos(theta / 3.0))
-    found = wear_history.wear_orders(area, theta, 8)
+    found = wear_orders(area, theta, 8)
     np.testing.assert_allclose(found[[0, 5]], [2e-9, 1e-9 * np.exp(0.4j)], atol=1e-20)
-    depth = wear_history.depth_around(found, np.array([0.0, 1.0]))
+    depth = depth_around(found, np.array([0.0, 1.0]))
     np.testing.assert_allclose(depth, 1e-9 * (2.0 + np.cos([0.4, 5.4])), rtol=1e-9)
 
 
 def test_flexibilities_are_those_of_the_law():
     flexibility = np.array(kalker.flexibilities(LAW.kalker_table, 4.5e-3, 3e-3, LAW.shear_modulus))
-    grid, chart = fastsim.patch_grid(10, 10), wear.WearChart()
-    value = wear_derivative.worn_area(STATE + 0j, flexibility + 0j, grid, SPEED, chart)
+    grid, chart = fastsim.patch_grid(10, 10), WearChart()
+    value = worn_area(STATE + 0j, flexibility + 0j, grid, SPEED, chart)
     np.testing.assert_allclose(value.real, area_of(STATE, 10, chart), rtol=1e-12)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from figure_scripts import STYLE, script, texts
 
-from tramdva import figures, results
-from tramdva.registry import STAGES
+from tramdva import results
+from tramdva.report import figures
+from tramdva.variables.registry import STAGES
 
 BAND = {"min": 45.0, "max": 65.0}
 CODE = "0" * 20

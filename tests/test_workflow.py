@@ -17,10 +17,12 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tramdva import config, supervision
-from tramdva.parameters import Numerics
-from tramdva.provenance import code_hash, reached_modules
-from tramdva.registry import STAGES
+from tramdva.configuration.numerics import Numerics
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import USES, used_values
+from tramdva.running import job, supervision
+from tramdva.running.code_hash import code_hash, reached_modules
+from tramdva.variables.registry import STAGES
 
 # Keys of measured files, and such a file.
 MEASURED = {
@@ -383,7 +385,7 @@ def test_nothing_to_do_when_complete(completed: Path, snakemake) -> None:
 
 
 def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) -> None:
-    paper = config.load(completed / "config").lines["paper"]
+    paper = load(completed / "config").lines["paper"]
     changes = list(changed(paper.model_dump(mode="json")))
     for number, (key, _) in enumerate(changes):
         if key in MEASURED:
@@ -451,14 +453,14 @@ def test_wrong_measured_file_stops_the_run_before_it_starts(
 
 
 def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
-    loaded = config.load(completed / "config")
-    before = {rule: config.stage(loaded, "paper", rule) for rule in config.STAGES}
+    loaded = load(completed / "config")
+    before = {rule: used_values(loaded, "paper", rule) for rule in USES}
     numerics = loaded.run.numerics.model_dump()
     changes = list(changed({"numerics": numerics}))
     assert len(changes) > 15
     for key, content in changes:
-        other = config.load(completed / "config", overrides=content)
-        differing = {r for r in before if config.stage(other, "paper", r) != before[r]}
+        other = load(completed / "config", overrides=content)
+        differing = {r for r in before if used_values(other, "paper", r) != before[r]}
         differing = {re.sub("_(none|paper|tuned)$", "", name) for name in differing}
         prefixes = [prefix for prefix in USERS if key.startswith(f"{prefix}.")]
         assert differing == set(USERS[max(prefixes, key=len)]), key
@@ -466,7 +468,7 @@ def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
 
 @pytest.mark.parametrize("stage", Numerics.model_fields)
 def test_numerics_of_a_stage_rerun_its_dependants(completed: Path, snakemake, stage: str) -> None:
-    numerics = config.load(completed / "config").run.numerics.model_dump()[stage]
+    numerics = load(completed / "config").run.numerics.model_dump()[stage]
     _, content = next(changed({"numerics": {stage: numerics}}))
     (completed / "other.yaml").write_text(yaml.safe_dump(content))
 
@@ -682,7 +684,7 @@ def test_catalog_finds_the_same_jobs(root: Path, tmp_path: Path, snakemake) -> N
         jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
         tables.append({rule: number for rule, number in jobs.items() if rule in RULES})
 
-    loaded = config.load(root / "config")
+    loaded = load(root / "config")
     orders = loaded.run.numerics.evolution_tendency.orders.listed()
     many = {
         "bogie_linearisation": 2,
@@ -747,8 +749,6 @@ def test_failing_job_says_one_line_and_logs_the_traceback(
 
 
 def test_times_of_jobs_are_told(tmp_path: Path) -> None:
-    from tramdva import job
-
     for stage, seconds in (("hopf_points", "2.25"), ("stability_map", "1.5")):
         path = tmp_path / f"paper/{stage}.tsv"
         path.parent.mkdir(exist_ok=True)
@@ -789,7 +789,7 @@ def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
 
 
 def test_parameters_of_jobs_are_plain_json(root: Path) -> None:
-    loaded = config.load(root / "config")
-    for rule in config.STAGES:
-        values = config.stage(loaded, "paper", rule)
+    loaded = load(root / "config")
+    for rule in USES:
+        values = used_values(loaded, "paper", rule)
         assert json.loads(json.dumps(values)) == values

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from tramdva.wheelset import WheelsetParameters, wheelset_parameters
+from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = Path(__file__).parent / "reference"

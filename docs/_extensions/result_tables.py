@@ -4,8 +4,8 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from tramdva.registry import STAGES
-from tramdva.result_variables import Stage, Variable
+from tramdva.variables.kinds import Stage, Variable
+from tramdva.variables.registry import STAGES
 
 
 class ResultTables(SphinxDirective):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 
 def refuse_bool(value: Any) -> Any:
@@ -66,3 +66,8 @@ class Interval(Section):
         if not self.min < self.max:
             raise ValueError("min must be less than max")
         return self
+
+
+Label = Annotated[str, AfterValidator(printable)]
+
+GREATEST_LATERAL_ACCELERATION = 4.0  # m/s^2; trams in service stay near 1

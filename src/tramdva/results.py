@@ -2,26 +2,29 @@
 
 A file is written under a temporary name, synchronised and renamed: at no moment does half a file
 bear the final name. It holds no dates, so that the same values give the same bytes.
-`tramdva.registry` says which variables belong to each file.
+`tramdva.variables` says which variables belong to each file.
 """
 
 from __future__ import annotations
 
+import importlib
+import inspect
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import netCDF4
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tramdva import supervision
-from tramdva.registry import STAGES
-from tramdva.result_variables import Stage, Variable
+from tramdva.running import job, supervision
+from tramdva.variables.kinds import Stage, Variable
 
 if TYPE_CHECKING:
     import xarray
@@ -29,9 +32,50 @@ if TYPE_CHECKING:
 COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
 
 
+def make(snakemake: Any, stage: ModuleType) -> None:
+    """Make the result file of a job: the one place where a stage meets Snakemake.
+
+    Parameters
+    ----------
+    snakemake : Snakemake's object of the job
+        Its inputs are files of other stages, by the names of these; one or several each.
+    stage : module
+        `compute` takes the values of the configuration (``cfg``), the variables of the inputs by
+        name and, where it names them, wildcards of the job and ``file_of``, which finds a file that
+        the configuration names; it returns the variables that `VARIABLES` describes.
+    """
+    with job.logging_to(snakemake.log[0]):
+        cfg = snakemake.params.cfg
+        given = {name: _read_all(paths) for name, paths in snakemake.input.items() if paths}
+        values = stage.compute(cfg, **given, **_asked_for(stage, snakemake))
+        save(
+            snakemake.output[0], stage.VARIABLES, values,
+            parameters=cfg, code=snakemake.params.code,
+        )  # fmt: skip
+
+
+def _read_all(paths: str | Sequence[str]) -> Any:
+    return read(paths) if isinstance(paths, str) else [read(path) for path in paths]
+
+
+def _asked_for(stage: ModuleType, snakemake: Any) -> dict[str, Any]:
+    """What else the stage asks for by name: wildcards, numbers as such, and ``file_of``."""
+    wildcards = {
+        name: int(value) if value.isdecimal() else value
+        for name, value in snakemake.wildcards.items()
+    }
+    find = partial(job.configuration_file, scriptdir=snakemake.scriptdir)
+    offered = {**wildcards, "file_of": find}
+    return {
+        name: offered[name]
+        for name in inspect.signature(stage.compute).parameters
+        if name in offered
+    }
+
+
 def save(
     path: str | Path,
-    stage: str,
+    stage: Stage,
     values: Mapping[str, ArrayLike],
     *,
     parameters: Mapping[str, Any],
@@ -43,8 +87,8 @@ def save(
     ----------
     path : path
         The file; its folder is made where it is missing.
-    stage : str
-        Name of the stage, a key of `tramdva.registry.STAGES`.
+    stage : Stage
+        Its name, its title and the description of its variables.
     values : mapping
         All variables of the stage in SI units. Flags may be given as their meanings, truths as
         bool.
@@ -60,15 +104,15 @@ def save(
     """
     arrays, lengths = _validated(stage, values)
     stamps = {
-        "title": STAGES[stage].title,
-        "stage": stage,
+        "title": stage.title,
+        "stage": stage.name,
         "tramdva_version": version("tramdva"),
         "code_hash": code,
         "parameters": json.dumps(parameters, sort_keys=True, ensure_ascii=False, allow_nan=False),
     }
     with atomically(path) as part:
         try:
-            _write(part, STAGES[stage], arrays, lengths, stamps)
+            _write(part, stage, arrays, lengths, stamps)
         except RuntimeError as error:
             raise OSError(f"{path}: cannot be written, disk full? ({error})") from None
 
@@ -108,7 +152,7 @@ def read(path: str | Path) -> dict[str, np.ndarray]:
         Where the file is no complete result of this version of tramdva.
     """
     with _opened(path) as dataset:
-        variables = STAGES[dataset.stage].variables
+        variables = _descriptions()[dataset.stage].variables
         return {name: _plain(dataset[name], variable) for name, variable in variables.items()}
 
 
@@ -138,15 +182,13 @@ def load(path: str | Path) -> xarray.Dataset:
 
 
 def _validated(
-    stage: str, values: Mapping[str, ArrayLike]
+    stage: Stage, values: Mapping[str, ArrayLike]
 ) -> tuple[dict[str, np.ndarray], dict[str, int]]:
-    if stage not in STAGES:
-        raise ValueError(f"{stage}: unknown stage")
-    variables = STAGES[stage].variables
+    variables = stage.variables
     if unknown := sorted(set(values) - set(variables)):
-        raise ValueError(f"{stage}: unknown variable {', '.join(unknown)}")
+        raise ValueError(f"{stage.name}: unknown variable {', '.join(unknown)}")
     if missing := sorted(set(variables) - set(values)):
-        raise ValueError(f"{stage}: missing variable {', '.join(missing)}")
+        raise ValueError(f"{stage.name}: missing variable {', '.join(missing)}")
     arrays: dict[str, np.ndarray] = {}
     lengths: dict[str, int] = {}
     for name, variable in variables.items():
@@ -154,7 +196,7 @@ def _validated(
             arrays[name] = _encoded(values[name], variable)
             _fit(arrays[name].shape, variable.dimensions, lengths)
         except ValueError as error:
-            raise ValueError(f"{stage}: {name}: {error}") from None
+            raise ValueError(f"{stage.name}: {name}: {error}") from None
     return arrays, lengths
 
 
@@ -249,7 +291,7 @@ def _opened(path: str | Path) -> netCDF4.Dataset:
     except OSError as error:
         raise ValueError(f"{path}: is no complete netCDF file ({error.strerror})") from None
     dataset.set_auto_mask(False)
-    stage = STAGES.get(getattr(dataset, "stage", ""))
+    stage = _descriptions().get(getattr(dataset, "stage", ""))
     if stage is None or not hasattr(dataset, "parameters"):
         dataset.close()
         raise ValueError(f"{path}: is no result of tramdva")
@@ -257,6 +299,15 @@ def _opened(path: str | Path) -> netCDF4.Dataset:
         dataset.close()
         raise ValueError(f"{path}: lacks {', '.join(missing)}: made by another version")
     return dataset
+
+
+def _descriptions() -> dict[str, Stage]:
+    """Descriptions of all result files, by the names of their stages.
+
+    Imported by name, so that the hash of a stage's code does not reach the variables of all others:
+    where those of a file that it reads change, that file is made again, and the stage after it.
+    """
+    return importlib.import_module("tramdva.variables.registry").STAGES
 
 
 def _plain(stored: netCDF4.Variable, variable: Variable) -> np.ndarray:

@@ -5,9 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tramdva import config
-from tramdva.bogie import line as bogie_line_module
-from tramdva.bogie.line import BogieLine, Running
+from tramdva.bogie import tram as bogie_line_module
+from tramdva.bogie.tram import BogieLine, Running
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 CONFIG = Path(__file__).resolve().parents[2] / "config"
 
@@ -15,7 +18,7 @@ CONFIG = Path(__file__).resolve().parents[2] / "config"
 @pytest.fixture(scope="session")
 def configuration():
     """The configuration."""
-    return config.load(CONFIG)
+    return load(CONFIG)
 
 
 @pytest.fixture(scope="session")
@@ -27,17 +30,13 @@ def bogie(configuration):
 @pytest.fixture(scope="session")
 def tables(configuration) -> dict[str, np.ndarray]:
     """Contact tables."""
-    return bogie_line_module.contact_geometry(
-        config.stage(configuration, "paper", "contact_geometry")
-    )
+    return contact_geometry.compute(used_values(configuration, "paper", "contact_geometry"))
 
 
 @pytest.fixture(scope="session")
 def line(configuration, tables) -> BogieLine:
     """The paper's line."""
-    return bogie_line_module.bogie_line(
-        config.stage(configuration, "paper", "curving_equilibrium"), tables
-    )
+    return bogie_line(used_values(configuration, "paper", "curving_equilibrium"), tables)
 
 
 @pytest.fixture(scope="session")

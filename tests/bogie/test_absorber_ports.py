@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from tramdva import evolution, wear
-from tramdva.bogie import absorber_ports, attached_absorbers
+from tramdva.bogie import absorber_ports
+from tramdva.bogie.absorbers import attach, dynamic_stiffness, receptances
 from tramdva.bogie.conditions import Conditions, as_configured, reached, under
 from tramdva.bogie.curving import linearise, linearised
-from tramdva.bogie.line import changed, systems
 from tramdva.bogie.rough_wheels import deviation_forces, rough_bogie
+from tramdva.bogie.tram import changed, systems
 from tramdva.contact import fastsim
+from tramdva.evolution.tendency import Wearing, wear_rows, wear_sensitivity
+from tramdva.wear.chart import WearChart
 
 FRONT = ("front_outer", "front_inner")
 FREQUENCY = np.array([8.0, 21.0, 50.0, 55.5, 73.0, 117.0])
@@ -40,14 +42,13 @@ def absorber(request, line):
 def bare(quiet, absorber):
     """Receptances and wear rows of the bogie without absorbers."""
     rough = rough_bogie(quiet.curve, quiet.equilibrium)
-    sensitivity = evolution.wear_sensitivity(
-        rough, quiet.curve.contacts.law, fastsim.patch_grid(12, 12),
-        wear.WearChart(method="constant"), FRONT,
-    )  # fmt: skip
-    rows = evolution.wear_rows(rough, sensitivity, FREQUENCY, 4.0, 0.3, FRONT)
-    found = attached_absorbers.receptances(
-        quiet.curve, quiet.equilibrium, rough, absorber, TURN, rows.source
+    sensitivity = wear_sensitivity(
+        rough,
+        quiet.curve.contacts.law,
+        Wearing(WearChart(method="constant"), fastsim.patch_grid(12, 12), FRONT),
     )
+    rows = wear_rows(rough, sensitivity, FREQUENCY, 4.0, 0.3, FRONT)
+    found = receptances(quiet.curve, quiet.equilibrium, rough, absorber, TURN, rows.source)
     return found, rows, rough
 
 
@@ -70,7 +71,7 @@ def built(line, quiet, absorber):
 def test_wear_is_that_with_absorbers_attached_one_by_one(bare, modes, absorber):
     found, rows, _ = bare
     for c_T, d_T in ((absorber.c_T, absorber.d_T), (0.3 * absorber.c_T, 3.0 * absorber.d_T)):
-        expected = attached_absorbers.attach(found, absorber.I_T, c_T, d_T, rows.output([0, 1]))
+        expected = attach(found, absorber.I_T, c_T, d_T, rows.output([0, 1]))
         expected = expected + rows.direct[:, :2]
         np.testing.assert_allclose(modes.response(absorber.I_T, c_T, d_T), expected, rtol=1e-9)
 
@@ -100,9 +101,7 @@ def test_stroke_and_power_are_those_of_the_vehicle_built_with_absorbers(
     np.testing.assert_allclose(mean, power, rtol=1e-10)
     # What the damper takes is what the axle gives: -Z acts on its motion.
     carrier = modes.carrier(absorber.I_T, absorber.c_T, absorber.d_T)
-    stiffness = attached_absorbers.dynamic_stiffness(
-        TURN, absorber.I_T, absorber.c_T, absorber.d_T
-    )[:, None]
+    stiffness = dynamic_stiffness(TURN, absorber.I_T, absorber.c_T, absorber.d_T)[:, None]
     given = 0.5 * (stiffness * carrier * np.conj(1j * TURN[:, None] * carrier)).real
     np.testing.assert_allclose(given, power, rtol=1e-8)
 

@@ -5,13 +5,15 @@ import pytest
 from figure_scripts import script, texts
 from strange_trams import unexplained
 
-from tramdva import config
-from tramdva.bogie import modes, stages, track
-from tramdva.bogie import running as contact
+from tramdva.bogie import modes, track
+from tramdva.bogie import wheel_forces as contact
+from tramdva.bogie.absorbers import absorber_family, carried_over
 from tramdva.bogie.curving import angle_of_attack, linearise, wheel_loads
-from tramdva.bogie.line import absorber, changed, run_through
+from tramdva.bogie.tram import absorber, changed, run_through
 from tramdva.bogie.vehicle import build_vehicle
+from tramdva.configuration.uses import used_values
 from tramdva.contact import patch
+from tramdva.stages import bogie_modes, bogie_sections
 
 LIMITS = (30.0, 200.0)
 
@@ -140,7 +142,7 @@ def test_family_of_absorbers_is_each_bogie_by_itself(line, running, motion):
         design = design.model_copy(update=values)
     line = line._replace(bogie=line.bogie.model_copy(update={"absorber": design}))
     c_T, d_T = 0.7 * design.c_T, 2.5 * design.d_T
-    system, linear = modes.absorber_family(line, running).member(c_T, d_T)
+    system, linear = absorber_family(line, running).member(c_T, d_T)
     alone = changed(line, absorber(line, c_T, d_T), running)
     found = modes.modes_of(system, linear, (1.0, 200.0))
     expected = modes.modes(alone.curve, alone.equilibrium.state, (1.0, 200.0))
@@ -167,7 +169,7 @@ def test_critical_friction_decrease_has_no_growth(running):
 
 
 def test_carried_over_absorber_keeps_frequency_and_damping_ratio():
-    c, d = modes.carried_over(2.0, 40.0, 4.3e6, 6850.0)
+    c, d = carried_over(2.0, 40.0, 4.3e6, 6850.0)
     np.testing.assert_allclose(np.sqrt(c / 2.0), np.sqrt(4.3e6 / 40.0))
     np.testing.assert_allclose(d / np.sqrt(c * 2.0), 6850.0 / np.sqrt(4.3e6 * 40.0))
 
@@ -208,7 +210,7 @@ def test_attitude_in_the_curve_is_that_of_the_paper(running):
 
 def test_without_equilibrium_there_are_no_modes(configuration, tables, monkeypatch):
     """Numbers of a state that is no equilibrium would look like any others."""
-    cfg = config.stage(configuration, "paper", "bogie_modes")
+    cfg = used_values(configuration, "paper", "bogie_modes")
     cfg["numerics"] |= {"friction_points": 2, "map_points": 2}
     designs = {
         "absorber": np.array(["none", "paper", "tuned"]),
@@ -226,8 +228,8 @@ def test_without_equilibrium_there_are_no_modes(configuration, tables, monkeypat
             straight_equilibrium=run.straight_equilibrium._replace(status=status),
         )
 
-    monkeypatch.setattr(stages, "changed", lost)
-    values = stages.bogie_modes(cfg, tables, designs)
+    monkeypatch.setattr(bogie_sections, "changed", lost)
+    values = bogie_modes.compute(cfg, tables, designs)
     found = np.isfinite(values["frequency"]).any(axis=(1, 2))
     np.testing.assert_array_equal(found, [False, True, False])
     for name in ("operating_growth_rate", "operating_frequency"):

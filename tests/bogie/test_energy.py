@@ -9,11 +9,12 @@ model's force acts along the normal alone. That work is counted, too.
 import numpy as np
 import pytest
 
-from tramdva.bogie import integration, track
+from tramdva.bogie import integration, ride, track
 from tramdva.bogie.curving import equilibrium
-from tramdva.bogie.line import run_through, track_line
-from tramdva.bogie.running import contact_forces
+from tramdva.bogie.modal import modal_basis, modal_state, vehicle_state
+from tramdva.bogie.tram import run_through, track_line
 from tramdva.bogie.vehicle import frame_loads
+from tramdva.bogie.wheel_forces import contact_forces
 from tramdva.contact import patch
 
 DURATION = 0.2
@@ -54,10 +55,10 @@ def energies(system, state):
 def energy_after_blow(conservative, direction, speed: float, interval: float):
     """Change of the energy over that of the blow, (k,): without and with the constant's work."""
     system, rest = conservative
-    basis, contacts = integration.modal_basis(system, rest), system.contacts
+    basis, contacts = modal_basis(system, rest), system.contacts
     start = rest.state.copy()
     start[system.size :] += speed * direction
-    z, work = integration.modal_state(basis, start), integration.workspace(contacts)
+    z, work = modal_state(basis, start), integration.workspace(contacts)
     tables = integration.step_table(basis.eigenvalue, interval)
     columns = np.array(integration.RECORDED)
     local, results = np.empty((1, 40)), np.empty((1, 4, len(contacts.tables), columns.size))
@@ -65,10 +66,10 @@ def energy_after_blow(conservative, direction, speed: float, interval: float):
     for _ in range(round(DURATION / interval)):
         integration.run(
             basis.contact, contacts, integration.steady(basis.eigenvalue.size, system.curvatures),
-            integration.no_excitation(basis, contacts), tables, interval, 1e9, 0, 0.0, z, work,
+            ride.no_excitation(basis, contacts), tables, interval, 1e9, 0, 0.0, z, work,
             local, results, columns, 1,
         )  # fmt: skip
-        found.append(energies(system, integration.vehicle_state(basis, z)))
+        found.append(energies(system, vehicle_state(basis, z)))
     smooth, contact, constant = map(np.array, zip(*found, strict=True))
     total = smooth + np.nansum(contact, axis=(1, 2))
     taken = 0.5 * (contact[1:] + contact[:-1]) * np.diff(constant, axis=0)

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tramdva.bogie import curve_entry, integration, modes
+from tramdva.bogie import integration, modes, ride
 from tramdva.bogie.curving import linearise
-from tramdva.bogie.line import absorber, changed, track_line
+from tramdva.bogie.modal import modal_basis, modal_state, packed, vehicle_state
 from tramdva.bogie.track import TrackLine
+from tramdva.bogie.tram import absorber, changed, track_line
 
 FREE = 1e9  # tolerance that leaves the step alone
 INNER_FRONT = 10  # first local variable of the wheel
@@ -18,7 +19,7 @@ class Run:
 
     def __init__(self, running):
         self.system = running.curve
-        self.basis = integration.modal_basis(running.curve, running.equilibrium)
+        self.basis = modal_basis(running.curve, running.equilibrium)
         self.work = integration.workspace(running.curve.contacts)
 
     def start(self, amplitude: float, frequency: float = 55.0) -> np.ndarray:
@@ -38,7 +39,7 @@ class Run:
         _, status, _, _ = integration.run(
             self.basis.contact, self.system.contacts,
             integration.steady(self.basis.eigenvalue.size, self.system.curvatures),
-            excitation or integration.no_excitation(self.basis, self.system.contacts),
+            excitation or ride.no_excitation(self.basis, self.system.contacts),
             integration.step_table(self.basis.eigenvalue, interval), interval, tolerance, 0, 0.0,
             z, self.work, local, results, np.array(integration.RECORDED), 1,
         )  # fmt: skip
@@ -56,7 +57,7 @@ def test_modal_basis_reproduces_states_and_matrix(running):
     state = running.equilibrium.state + 1e-5 * np.random.default_rng(1).normal(
         size=running.equilibrium.state.size
     )
-    back = integration.vehicle_state(run.basis, integration.modal_state(run.basis, state))
+    back = vehicle_state(run.basis, modal_state(run.basis, state))
     np.testing.assert_allclose(back, state, atol=1e-11)
 
 
@@ -88,7 +89,7 @@ def test_decay_with_absorbers_is_that_of_the_eigenvalue(line, running):
 def test_free_motion_agrees_with_an_adaptive_runge_kutta_method(running):
     """A blow of the size of the limit cycle, over three periods."""
     run, system, k = Run(running), running.curve, running.curve.size
-    start = integration.vehicle_state(run.basis, run.start(0.02))
+    start = vehicle_state(run.basis, run.start(0.02))
     inverse = np.linalg.inv(system.vehicle.mass)
 
     def rate(_, x):
@@ -96,7 +97,7 @@ def test_free_motion_agrees_with_an_adaptive_runge_kutta_method(running):
 
     duration = 0.05
     found = solve_ivp(rate, (0.0, duration), start, method="DOP853", rtol=1e-8, atol=1e-10)
-    local, _ = run(integration.modal_state(run.basis, start), duration, 5e-5)
+    local, _ = run(modal_state(run.basis, start), duration, 5e-5)
     expected = system.local(found.y[:, -1])
     scale = np.abs(expected - system.local(running.equilibrium.state))[4:].max()
     np.testing.assert_allclose(local[-1], expected, atol=1e-3 * scale)
@@ -134,8 +135,8 @@ def test_frequency_response_agrees_with_a_simulation(line, running, frequency):
     linear = linearise(damped.curve, damped.equilibrium.state)
     matrix = 1j * turn * np.eye(len(linear.matrix)) - linear.matrix
     expected = linear.output @ np.linalg.solve(matrix, linear.input @ force)
-    excitation = integration.no_excitation(run.basis, damped.curve.contacts)._replace(
-        angular_frequency=turn, force=integration.packed(run.basis.load @ force)
+    excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(
+        angular_frequency=turn, force=packed(run.basis.load @ force)
     )
     m = run.basis.eigenvalue.size
     # Start on the steady response, so that only the difference is a transient.
@@ -151,9 +152,9 @@ def test_frequency_response_agrees_with_a_simulation(line, running, frequency):
     np.testing.assert_allclose(abs(found), abs(expected[INNER_FRONT + 5]), rtol=5e-3)
 
 
-def route(line, run, transition=0.0, cant=0.0) -> curve_entry.Route:
+def route(line, run, transition=0.0, cant=0.0) -> ride.Route:
     start = track_line(line, 0.5 * line.track.speed)
-    return curve_entry.Route(
+    return ride.Route(
         TrackLine(start.start, transition, start.curvature, cant),
         line.track.speed,
         line.bogie.half_wheelbase,
@@ -166,20 +167,20 @@ def route(line, run, transition=0.0, cant=0.0) -> curve_entry.Route:
 @pytest.mark.parametrize("transition", [0.0, 3.0])
 def test_ride_with_absorbers_ends_in_the_curving_equilibrium(line, running, transition):
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
-    ride = curve_entry.ride(route(line, damped, transition), 5.0, 1e-3, 1, 1e-2)
-    assert ride.status == "completed"
+    found = ride.ride(route(line, damped, transition), 5.0, 1e-3, 1, 1e-2)
+    assert found.status == "completed"
     end = damped.curve.local(damped.equilibrium.state).reshape(4, 10)
-    found = ride.local[-1].reshape(4, 10)
-    np.testing.assert_allclose(found[:, :2], end[:, :2], atol=2e-5)  # m; car body decays slowly
-    assert np.abs(curve_entry.contact_point_velocity(0.3, ride.local[-50:])).max() < 1e-3
+    last = found.local[-1].reshape(4, 10)
+    np.testing.assert_allclose(last[:, :2], end[:, :2], atol=2e-5)  # m; car body decays slowly
+    assert np.abs(ride.contact_point_velocity(0.3, found.local[-50:])).max() < 1e-3
 
 
 def test_a_transition_curve_softens_the_entry(line, running):
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     blows = [
         np.abs(
-            curve_entry.contact_point_velocity(
-                0.3, curve_entry.ride(route(line, damped, length), 2.0, 1e-3, 1, 1e-2).local
+            ride.contact_point_velocity(
+                0.3, ride.ride(route(line, damped, length), 2.0, 1e-3, 1, 1e-2).local
             )[1]
         ).max()
         for length in (0.0, 4.0)
@@ -193,9 +194,7 @@ def test_radius_deviation_moves_the_wheel_up(line, running):
     run = Run(damped)
     crest = np.zeros((4, 2))
     crest[1] = 1e-5
-    excitation = integration.no_excitation(run.basis, damped.curve.contacts)._replace(
-        amplitude=crest
-    )
+    excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(amplitude=crest)
     z = np.zeros(2 * run.basis.eigenvalue.size)
     local, _ = run(z, 4.0, 1e-3, excitation)
     rest = damped.curve.local(damped.equilibrium.state)

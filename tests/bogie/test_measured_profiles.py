@@ -5,13 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tramdva import config
-from tramdva.bogie import line as bogie_line_module
-from tramdva.bogie import modes, running
+from tramdva.bogie import modes
+from tramdva.bogie import tram as bogie_line_module
 from tramdva.bogie.curving import angle_of_attack, wheel_loads
+from tramdva.configuration.uses import used_values
 from tramdva.contact import geometry, patch
 from tramdva.contact.measured_profile import measured_profile
 from tramdva.contact.profiles import Profile, ProfileError
+from tramdva.contact.tables import parametric_rail, parametric_wheel, stored_tables
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 # Per noise in m: tolerances of the angle of attack (rad), wheel loads (N), contact angle (rad) of
 # loaded contacts, frequency (Hz) and growth rate (1/s) of the modes of the front axle.
@@ -33,7 +36,7 @@ def write(path: Path, profile: Profile, noise: float, seed: int, offset: float =
 @pytest.fixture(scope="session")
 def cfg(configuration) -> dict:
     """Values of the stage."""
-    return config.stage(configuration, "paper", "contact_geometry")
+    return used_values(configuration, "paper", "contact_geometry")
 
 
 @pytest.fixture(scope="session")
@@ -41,8 +44,8 @@ def pair(configuration) -> dict[str, Profile]:
     """The paper's wheel and rail."""
     shape = configuration.lines["paper"].contact_geometry
     return {
-        "wheel": running.parametric_wheel(shape.wheel),
-        "rail": running.parametric_rail(shape.rail),
+        "wheel": parametric_wheel(shape.wheel),
+        "rail": parametric_rail(shape.rail),
     }
 
 
@@ -56,12 +59,12 @@ def measured(request, cfg, pair, tmp_path_factory):
         )
         for seed, (kind, profile) in enumerate(pair.items())
     }
-    return request.param, bogie_line_module.contact_geometry(cfg, **profiles)
+    return request.param, contact_geometry.compute(cfg, **profiles)
 
 
 def heights(variables, places) -> np.ndarray:
     """Height of the wheel at first touch in the zones of the tables."""
-    tables = bogie_line_module.contact_tables(variables)
+    tables = stored_tables(variables)
     rows = np.empty((geometry.WINDOW, 8))
     return np.array([[geometry.touch_height(t, *p, rows) for p in places] for t in tables])
 
@@ -82,9 +85,7 @@ def test_contact_tables_agree(tables, measured):
 def test_bogie_curves_and_vibrates_alike(configuration, running_, measured):
     noise, found = measured
     attack, load, angle, frequency, growth = TOLERANCES[noise]
-    line = bogie_line_module.bogie_line(
-        config.stage(configuration, "paper", "curving_equilibrium"), found
-    )
+    line = bogie_line(used_values(configuration, "paper", "curving_equilibrium"), found)
     other = bogie_line_module.run_through(line, 4)
     assert other.equilibrium.status == "converged"
     np.testing.assert_allclose(

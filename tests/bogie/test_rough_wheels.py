@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from tramdva import evolution, evolution_stages, wear
-from tramdva.bogie import attached_absorbers, simulation, simulation_stage
-from tramdva.bogie import running as running_module
+from tramdva.bogie import revolutions
+from tramdva.bogie import wheel_forces as running_module
+from tramdva.bogie.absorbers import attach, receptances
 from tramdva.bogie.curving import linearise
-from tramdva.bogie.line import absorber, changed, transferred
-from tramdva.bogie.rough_wheel_files import stored_bogie, variables
+from tramdva.bogie.names import WHEELS
 from tramdva.bogie.rough_wheels import (
     contact_angles,
     deviation_forces,
@@ -16,9 +15,19 @@ from tramdva.bogie.rough_wheels import (
     rough_bogie,
     wheel_mask,
 )
-from tramdva.bogie.vehicle import WHEELS
+from tramdva.bogie.stored import stored_bogie, variables
+from tramdva.bogie.tram import absorber, changed, transferred
 from tramdva.contact import fastsim, patch
-from tramdva.out_of_roundness import Measurement, radius_deviation
+from tramdva.evolution.out_of_roundness import Measurement, radius_deviation
+from tramdva.evolution.tendency import (
+    Wearing,
+    evolution_tendency,
+    linear_wear_response,
+    wear_rows,
+    wear_sensitivity,
+)
+from tramdva.stages import bogie_simulation, wear
+from tramdva.wear.chart import WearChart
 
 FRONT = ("front_outer", "front_inner")
 V, R0 = 4.0, 0.3
@@ -70,18 +79,20 @@ def settings(amplitude=1e-6, wheels=FRONT, **wear_changes):
 def simulate(stored_values, tables, order, **changes):
     """Wear of a simulated order: response (wheels,), variables of both stages."""
     cfg = settings(**changes)
-    contacts = simulation_stage.bogie_simulation(cfg, order, tables, stored_values)
-    worn = evolution_stages.wear(cfg, contacts)
+    contacts = bogie_simulation.compute(cfg, order, tables, stored_values)
+    worn = wear.compute(cfg, contacts)
     return worn["wear_amplitude"] / worn["amplitude"] * np.exp(1j * worn["wear_phase"]), worn
 
 
 def linear(rough_, run, frequency, wheels=FRONT, cells=24, **chart):
-    wheels_of = wear.WearChart(**({"method": "constant"} | chart))
-    sensitivity = evolution.wear_sensitivity(
-        rough_, run.curve.contacts.law, fastsim.patch_grid(cells, cells), wheels_of, wheels
+    wheels_of = WearChart(**({"method": "constant"} | chart))
+    sensitivity = wear_sensitivity(
+        rough_,
+        run.curve.contacts.law,
+        Wearing(wheels_of, fastsim.patch_grid(cells, cells), tuple(wheels)),
     )
     frequency = np.atleast_1d(frequency)
-    response = evolution.linear_wear_response(rough_, sensitivity, frequency, V, R0, wheels)
+    response = linear_wear_response(rough_, sensitivity, frequency, V, R0, wheels)
     return response[:, [WHEELS.index(name) for name in wheels]]
 
 
@@ -102,8 +113,8 @@ def test_simulated_and_linearised_wear_agree_with_the_sharp_chart(stored, rough,
     for order in (26, 51):
         cfg = settings(method="chart")
         cfg["numerics"] |= {"wear_cells_along": 40, "wear_strips": 40}
-        contacts = simulation_stage.bogie_simulation(cfg, order, tables, stored["none"])
-        worn = evolution_stages.wear(cfg, contacts)
+        contacts = bogie_simulation.compute(cfg, order, tables, stored["none"])
+        worn = wear.compute(cfg, contacts)
         found = worn["wear_amplitude"] / worn["amplitude"] * np.exp(1j * worn["wear_phase"])
         frequency = float(worn["frequency"])
         expected = linear(rough["none"], quiet["none"], frequency, cells=40, method="chart")[0]
@@ -126,8 +137,8 @@ def test_shifting_the_waves_shifts_the_wear_and_leaves_the_response(stored, tabl
     for shift in (0.0, 1.3):
         wave = Measurement(angle, radius_deviation([26], [1e-6 * np.exp(1j * shift)], angle))
         cfg = settings()
-        contacts = simulation_stage.bogie_simulation(cfg, 26, tables, stored["paper"], wave)
-        worn = evolution_stages.wear(cfg, contacts)
+        contacts = bogie_simulation.compute(cfg, 26, tables, stored["paper"], wave)
+        worn = wear.compute(cfg, contacts)
         responses.append(worn["wear_amplitude"] * np.exp(1j * worn["wear_phase"]))
         spectrum = np.fft.rfft(worn["wear_depth"], axis=1)[:, 26]
         phases.append(np.angle(spectrum))
@@ -138,10 +149,11 @@ def test_shifting_the_waves_shifts_the_wear_and_leaves_the_response(stored, tabl
 
 def test_mean_wear_is_that_of_the_equilibrium(stored, rough, quiet, tables):
     _, worn = simulate(stored["paper"], tables, 34, method="smoothed")
-    sensitivity = evolution.wear_sensitivity(
-        rough["paper"], quiet["paper"].curve.contacts.law, fastsim.patch_grid(24, 24),
-        wear.WearChart(method="smoothed"), FRONT,
-    )  # fmt: skip
+    sensitivity = wear_sensitivity(
+        rough["paper"],
+        quiet["paper"].curve.contacts.law,
+        Wearing(WearChart(method="smoothed"), fastsim.patch_grid(24, 24), FRONT),
+    )
     np.testing.assert_allclose(worn["mean_wear_depth"], sensitivity.mean_depth()[:2], rtol=1e-3)
     np.testing.assert_allclose(worn["wear_depth"].mean(axis=1), worn["mean_wear_depth"], rtol=1e-9)
 
@@ -149,10 +161,10 @@ def test_mean_wear_is_that_of_the_equilibrium(stored, rough, quiet, tables):
 def test_a_vehicle_that_does_not_move_wears_by_the_load_of_hertz(rough, quiet):
     """By hand, constant k and full sliding: depth over its mean follows N ~ penetration^1.5."""
     bogie, law = rough["none"], quiet["none"].curve.contacts.law
-    sensitivity = evolution.wear_sensitivity(
-        bogie, law, fastsim.patch_grid(24, 24), wear.WearChart(method="constant"), FRONT
+    sensitivity = wear_sensitivity(
+        bogie, law, Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT)
     )
-    rows = evolution.wear_rows(bogie, sensitivity, np.array([1e-3]), V, R0, FRONT)
+    rows = wear_rows(bogie, sensitivity, np.array([1e-3]), V, R0, FRONT)
     # The conformal flange root changes its curvature as the wheel sinks, the tread does not.
     for wheel, zone, tolerance in ((0, 1, 0.04), (1, 0, 0.01)):
         result = bogie.results[wheel, zone]
@@ -206,23 +218,22 @@ def test_file_holds_the_whole_linearised_bogie(stored, rough, quiet):
 def test_wheels_in_phase_matter_at_the_inner_wheel(rough, quiet):
     """With waves on the inner wheel alone, its peak at the second bending nearly vanishes."""
     frequency = np.arange(50.0, 60.0, 0.1)
-    both = evolution.evolution_tendency(linear(rough["none"], quiet["none"], frequency))
+    both = evolution_tendency(linear(rough["none"], quiet["none"], frequency))
     alone = linear(rough["none"], quiet["none"], frequency, wheels=("front_inner",))
-    assert evolution.evolution_tendency(alone).max() < 0.4 * both[:, 1].max()
+    assert evolution_tendency(alone).max() < 0.4 * both[:, 1].max()
 
 
 def attached(run, rough_, absorber_, inertia, c_T, d_T, frequency):
-    sensitivity = evolution.wear_sensitivity(
-        rough_, run.curve.contacts.law, fastsim.patch_grid(24, 24),
-        wear.WearChart(method="constant"), FRONT,
-    )  # fmt: skip
-    rows = evolution.wear_rows(rough_, sensitivity, frequency, V, R0, FRONT)
-    turn = 2.0 * np.pi * frequency
-    bare = attached_absorbers.receptances(
-        run.curve, run.equilibrium, rough_, absorber_, turn, rows.source
+    sensitivity = wear_sensitivity(
+        rough_,
+        run.curve.contacts.law,
+        Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT),
     )
+    rows = wear_rows(rough_, sensitivity, frequency, V, R0, FRONT)
+    turn = 2.0 * np.pi * frequency
+    bare = receptances(run.curve, run.equilibrium, rough_, absorber_, turn, rows.source)
     output = rows.output([0, 1])
-    return attached_absorbers.attach(bare, inertia, c_T, d_T, output) + rows.direct[:, :2]
+    return attach(bare, inertia, c_T, d_T, output) + rows.direct[:, :2]
 
 
 def test_attached_absorbers_respond_as_the_vehicle_built_with_them(line, quiet, rough):
@@ -254,14 +265,14 @@ def test_a_self_excited_bogie_does_not_run_periodically(line, running, tables):
     )
     cfg = settings()
     cfg["numerics"]["longest_transient"] = 8
-    found = simulation_stage.bogie_simulation(cfg, 30, tables, values)
+    found = bogie_simulation.compute(cfg, 30, tables, values)
     assert str(found["status"]) == "not_periodic"
 
 
 def test_waves_of_a_millimetre_lose_the_contact(stored, tables):
     cfg = settings(amplitude=1e-4)
     cfg["numerics"]["longest_transient"] = 2
-    found = simulation_stage.bogie_simulation(cfg, 55, tables, stored["none"])
+    found = bogie_simulation.compute(cfg, 55, tables, stored["none"])
     assert str(found["status"]) in {"contact_lost", "not_periodic"}
     assert found["normal_force"].min() == 0.0
 
@@ -270,4 +281,4 @@ def test_waves_of_a_millimetre_lose_the_contact(stored, tables):
     ("differences", "limit"), [([], np.inf), ([0.2], 0.2), ([0.4, 0.2], 0.2), ([0.4, 0.1], 0.1 / 3)]
 )
 def test_distance_from_the_limit_of_a_geometric_sequence(differences, limit):
-    assert simulation._remaining(differences) == pytest.approx(limit)
+    assert revolutions._remaining(differences) == pytest.approx(limit)

@@ -6,9 +6,10 @@ from pydantic import ValidationError
 
 from tramdva.bogie import track
 from tramdva.bogie.curving import wheel_loads
-from tramdva.bogie.line import absorber, changed, systems
-from tramdva.bogie.running import contact_forces
-from tramdva.bogie.vehicle import SIDE, build_vehicle, frame_loads
+from tramdva.bogie.names import SIDE
+from tramdva.bogie.tram import absorber, changed, systems
+from tramdva.bogie.vehicle import build_vehicle, frame_loads
+from tramdva.bogie.wheel_forces import contact_forces
 from tramdva.contact import patch
 
 

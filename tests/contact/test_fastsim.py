@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tramdva.contact import fastsim, kalker, polach
-from tramdva.creep_force import friction_coefficient
+from tramdva.contact.creep_force import friction_coefficient
 
 LOAD, FRICTION, LIMIT = 35e3, 0.35, 12250.0
 BOUNDS = ("balanced", "parabolic", "elliptic")

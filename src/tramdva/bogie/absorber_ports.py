@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.attached_absorbers import Receptances, dynamic_stiffness
+from tramdva.bogie.absorbers import Receptances, dynamic_stiffness
 from tramdva.bogie.curving import Linearisation, System, oscillations
 from tramdva.bogie.vehicle import absorber_carriers
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie.curving import Equilibrium, System, equilibrium
-from tramdva.bogie.line import BogieLine, Running, systems, transferred
-from tramdva.bogie_parameters import BareBogie
+from tramdva.bogie.parameters import BareBogie
+from tramdva.bogie.tram import BogieLine, Running, systems, transferred
 
 
 class Conditions(NamedTuple):

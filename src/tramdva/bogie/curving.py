@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 import scipy  # its parts load when they are used: many short jobs need none
 
-from tramdva.bogie import running, track
-from tramdva.bogie.vehicle import AXLES, SIDE, WHEELS, Vehicle, frame_loads
+from tramdva.bogie import track, wheel_forces
+from tramdva.bogie.names import AXLES, SIDE, WHEELS
+from tramdva.bogie.vehicle import Vehicle, frame_loads
 from tramdva.contact import patch
 
 logger = logging.getLogger(__name__)
@@ -30,7 +31,7 @@ class System(NamedTuple):
     """
 
     vehicle: Vehicle
-    contacts: running.Contacts
+    contacts: wheel_forces.Contacts
     curvatures: np.ndarray
     load: np.ndarray
 
@@ -47,7 +48,7 @@ class System(NamedTuple):
     def forces(self, state: np.ndarray) -> np.ndarray:
         """Sum of all generalised forces (n,) except inertia."""
         k, vehicle = self.size, self.vehicle
-        contact, _ = running.contact_forces(self.contacts, self.curvatures, self.local(state))
+        contact, _ = wheel_forces.contact_forces(self.contacts, self.curvatures, self.local(state))
         return (
             self.load
             + vehicle.force_input @ contact
@@ -58,7 +59,7 @@ class System(NamedTuple):
 
 def system_on(
     vehicle: Vehicle,
-    contacts: running.Contacts,
+    contacts: wheel_forces.Contacts,
     line: track.TrackLine,
     place: float,
     half_wheelbase: float,
@@ -92,7 +93,7 @@ def with_friction_decrease(system: System, B: float) -> System:
 
 def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Linearisation:
     """Linearise about a state; the contact by central differences with scaled steps."""
-    jacobian = running.contact_jacobian(
+    jacobian = wheel_forces.contact_jacobian(
         system.contacts, system.curvatures, system.local(state), step_scale
     )
     return linearised(system, jacobian)
@@ -169,7 +170,9 @@ def equilibrium(
         length *= min(max(1.0 / max(change, 1e-300), 0.5), 100.0)
         state, rate = state + step, trial_rate
     residual = _unbalanced(rate)
-    _, results = running.contact_forces(system.contacts, system.curvatures, system.local(state))
+    _, results = wheel_forces.contact_forces(
+        system.contacts, system.curvatures, system.local(state)
+    )
     status = _status(results, residual, tolerance)
     logger.info("equilibrium: %s, residual %.1e", status, residual)
     return Equilibrium(state, residual, results, status)

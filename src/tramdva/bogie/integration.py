@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.bogie import running
-from tramdva.bogie.curving import Equilibrium, System, linearise
+from tramdva.bogie import wheel_forces
 from tramdva.contact import patch
 
 FAST = {"contract", "reassoc", "nsz"}
@@ -42,72 +41,6 @@ class ModalContacts(NamedTuple):
     local: np.ndarray
     force: np.ndarray
     jacobian: np.ndarray
-
-
-class ModalBasis(NamedTuple):
-    """Vehicle near an equilibrium in modal coordinates: m real or pairs of conjugate modes.
-
-    Modal states are packed: m real parts, then m imaginary parts.
-
-    eigenvalue : (m,) complex, 1/s
-    state : (nx,) of the equilibrium; to_modal : (m, nx); to_state : (nx, m), real part counts
-    load : (m, n) complex, modal forcing from generalised forces
-    contact : ModalContacts, all that the compiled steps need
-    """
-
-    eigenvalue: np.ndarray
-    state: np.ndarray
-    to_modal: np.ndarray
-    to_state: np.ndarray
-    load: np.ndarray
-    contact: ModalContacts
-
-
-def modal_basis(system: System, equilibrium: Equilibrium) -> ModalBasis:
-    """Modal coordinates about an equilibrium, scaled to velocities of at most 1 m/s or rad/s."""
-    linear = linearise(system, equilibrium.state)
-    values, vectors = np.linalg.eig(linear.matrix)
-    vectors = vectors / np.abs(vectors[system.size :]).max(axis=0)
-    inverse = np.linalg.inv(vectors)
-    kept = values.imag >= 0.0
-    values, left = values[kept], inverse[kept]
-    right = vectors[:, kept] * np.where(values.imag > 0.0, 2.0, 1.0)
-    output = linear.output @ right
-    load = left @ linear.input
-    forcing = load @ system.vehicle.force_input
-    force, _ = running.contact_forces(
-        system.contacts, system.curvatures, system.local(equilibrium.state)
-    )
-    return ModalBasis(
-        values,
-        equilibrium.state,
-        left,
-        right,
-        load,
-        ModalContacts(
-            np.ascontiguousarray(np.vstack([output.real.T, -output.imag.T])),
-            np.ascontiguousarray(np.hstack([forcing.real.T, forcing.imag.T])),
-            system.local(equilibrium.state),
-            force,
-            linear.contact_jacobian,
-        ),
-    )
-
-
-def packed(z: np.ndarray) -> np.ndarray:
-    """Modal state (m,) complex as (2 m,) real."""
-    return np.concatenate([z.real, z.imag])
-
-
-def modal_state(basis: ModalBasis, state: np.ndarray) -> np.ndarray:
-    """Packed modal state of a state of the vehicle."""
-    return packed(basis.to_modal @ (state - basis.state))
-
-
-def vehicle_state(basis: ModalBasis, modal: np.ndarray) -> np.ndarray:
-    """State of the vehicle of a packed modal state."""
-    m = basis.eigenvalue.size
-    return basis.state + (basis.to_state @ (modal[:m] + 1j * modal[m:])).real
 
 
 # Coefficients of the scheme: half and whole propagators, weights of the forcing.
@@ -174,13 +107,6 @@ class Excitation(NamedTuple):
     force: np.ndarray
 
 
-def no_excitation(basis: ModalBasis, contacts: running.Contacts) -> Excitation:
-    """Round wheels and no force."""
-    round_wheels, modal = np.zeros((4, len(contacts.tables))), np.zeros(2 * basis.eigenvalue.size)
-    local, force = np.zeros((2, 4 * running.LOCALS)), np.zeros((2, 4 * running.WHEEL_FORCES))
-    return Excitation(0.0, round_wheels, round_wheels, local, force, modal)
-
-
 class Passage(NamedTuple):
     """Loads of the frames while they move relative to each other, over a share u of 0 .. 1.
 
@@ -196,10 +122,6 @@ def steady(modes: int, curvatures: np.ndarray) -> Passage:
     """Passage of a track that does not change, for a number of modes."""
     load = np.zeros((4, 2 * modes))
     return Passage(load, np.vstack([curvatures, np.zeros(3)]))
-
-
-# Functions that are called in one place are inlined: the rest of the chain is then compiled once
-# instead of once per level.
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -230,11 +152,11 @@ def _add_remainder(modal, excitation, time, local, force, forcing):
     angle = excitation.angular_frequency * time
     cosine, sine = np.cos(angle), np.sin(angle)
     for i in range(force.size):
-        wheel = i // running.WHEEL_FORCES
-        start = running.LOCALS * wheel
+        wheel = i // wheel_forces.WHEEL_FORCES
+        start = wheel_forces.LOCALS * wheel
         linear = cosine * excitation.contact_force[0, i] - sine * excitation.contact_force[1, i]
         remainder = force[i] - modal.force[i] - linear
-        for j in range(start, start + running.LOCALS):
+        for j in range(start, start + wheel_forces.LOCALS):
             remainder -= modal.jacobian[i, j] * (local[j] - modal.local[j])
         row = modal.forcing[i]
         for k in range(forcing.size):
@@ -254,7 +176,9 @@ def _forcing(modal, contacts, passage, excitation, z, time, share, work, forcing
             rate[w, zone] = -turn * excitation.amplitude[w, zone] * np.sin(angle)
     for f in range(3):
         curvatures[f] = passage.curvature[0, f] + share * passage.curvature[1, f]
-    running.all_wheel_forces(contacts, curvatures, local, deviation, rate, scratch, results, force)
+    wheel_forces.all_wheel_forces(
+        contacts, curvatures, local, deviation, rate, scratch, results, force
+    )
     cosine = np.cos(turn * time)
     c = passage.load
     for k in range(z.size):
@@ -401,8 +325,8 @@ def run(
     return level, status, locals_out.shape[0], evaluations
 
 
-def workspace(contacts: running.Contacts) -> tuple:
+def workspace(contacts: wheel_forces.Contacts) -> tuple:
     """Scratch arrays for `run`."""
-    scratch, results = running.workspace(contacts)
+    scratch, results = wheel_forces.workspace(contacts)
     deviation, rate = np.empty((2, 4, len(contacts.tables)))
     return np.empty(40), np.empty(24), np.empty(3), deviation, rate, scratch, results

@@ -1,22 +1,19 @@
-"""Modes of the vehicle on the track: names, growth rates, critical friction decrease, tuning."""
+"""Modes of the vehicle on the track: names, growth rates, critical friction decrease."""
 
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq, minimize
+from scipy.optimize import brentq
 
 from tramdva.bogie.curving import (
     Linearisation,
     System,
     equilibrium,
     linearise,
-    linearised,
     oscillations,
     with_friction_decrease,
 )
-from tramdva.bogie.line import BogieLine, Running, changed
-from tramdva.bogie.vehicle import AXLES, ENERGY_CLASSES, WHEELS, with_absorber_values
-from tramdva.bogie_parameters import BogieAbsorber
+from tramdva.bogie.names import AXLES, ENERGY_CLASSES, WHEELS
 
 NAME_OF_CLASS = {
     "symmetric_bending": "third_bending",
@@ -196,75 +193,6 @@ def critical_friction_decrease(
             xtol=1e-4,
         )
     )
-
-
-class AbsorberFamily(NamedTuple):
-    """A bogie with its absorbers at a state of equilibrium, for any stiffness and damping of them.
-
-    At rest an absorber transmits its weight, whatever its stiffness and damping: rims, contacts
-    and their Jacobian are the same for all. A rotating one transmits nothing.
-
-    system : with the absorbers `design`; contact_jacobian : (24, 40)
-    """
-
-    system: System
-    design: BogieAbsorber
-    contact_jacobian: np.ndarray
-
-    def member(self, c_T: float, d_T: float) -> tuple[System, Linearisation]:
-        """System and linearisation with a stiffness (N m/rad, N/m) and damping (N m s/rad)."""
-        vehicle = with_absorber_values(self.system.vehicle, self.design, c_T, d_T)
-        system = self.system._replace(vehicle=vehicle)
-        return system, linearised(system, self.contact_jacobian)
-
-
-def absorber_family(line: BogieLine, known: Running) -> AbsorberFamily:
-    """Absorbers of the line in the curve."""
-    design = line.bogie.absorber
-    return family_of(design, changed(line, design, known))
-
-
-def family_of(design: BogieAbsorber, run: Running) -> AbsorberFamily:
-    """Absorbers of any stiffness and damping from the vehicle that runs with one of them."""
-    linear = linearise(run.curve, run.equilibrium.state)
-    return AbsorberFamily(run.curve, design, linear.contact_jacobian)
-
-
-def tuned_absorber(
-    family: AbsorberFamily, limits: tuple[float, float], start: tuple[float, float]
-) -> tuple[float, float]:
-    """Stiffness and damping that damp antisymmetric bending most; inertia as configured.
-
-    Parameters
-    ----------
-    family : AbsorberFamily
-    limits : Hz, of the oscillations that count
-    start : stiffness (N m/rad, or N/m) and damping (N m s/rad, or N s/m)
-
-    Notes
-    -----
-    The aim is the largest growth rate of the modes with more than half of their strain energy in
-    antisymmetric bending and in the absorbers; others, which no absorber reaches, do not count.
-    """
-    classes = [ENERGY_CLASSES.index(name) for name in ("antisymmetric_bending", "absorber")]
-
-    def growth(c_T: float, d_T: float) -> float:
-        found = modes_of(*family.member(c_T, d_T), limits)
-        reached = found.share[:, classes].sum(axis=(1, 2)) > 0.5
-        return float(found.eigenvalue.real[reached].max()) if reached.any() else np.inf
-
-    found = minimize(
-        lambda logarithms: growth(*np.exp(logarithms)),
-        np.log(start),
-        method="Nelder-Mead",
-        options={"xatol": 2e-3, "fatol": 1e-3, "maxfev": 80},
-    )
-    return tuple(map(float, np.exp(found.x)))
-
-
-def carried_over(inertia: float, m_T: float, c_T: float, d_T: float) -> tuple[float, float]:
-    """Stiffness and damping that give `inertia` the frequency and damping ratio of an absorber."""
-    return inertia * c_T / m_T, inertia * d_T / m_T
 
 
 def axle_points(system: System, axle: str) -> tuple[np.ndarray, np.ndarray]:

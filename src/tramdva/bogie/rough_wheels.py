@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie import running
+from tramdva.bogie import wheel_forces
 from tramdva.bogie.curving import Equilibrium, System
-from tramdva.bogie.integration import Excitation, ModalContacts, modal_basis
-from tramdva.bogie.vehicle import WHEELS
+from tramdva.bogie.integration import Excitation, ModalContacts
+from tramdva.bogie.modal import modal_basis
+from tramdva.bogie.names import WHEELS
 from tramdva.contact import patch
 
 
@@ -33,7 +34,7 @@ class RoughBogie(NamedTuple):
     modal: ModalContacts
     curvatures: np.ndarray
     results: np.ndarray
-    sensitivity: running.RadiusSensitivity
+    sensitivity: wheel_forces.RadiusSensitivity
     rolling_speed: np.ndarray
 
     @property
@@ -53,7 +54,7 @@ def rough_bogie(system: System, equilibrium: Equilibrium) -> RoughBogie:
         basis.contact,
         system.curvatures,
         equilibrium.results[..., : patch.RESULTS],
-        running.radius_sensitivity(system.contacts, system.curvatures, local),
+        wheel_forces.radius_sensitivity(system.contacts, system.curvatures, local),
         places.speed * (1.0 - curvature * places.lateral_position),
     )
 

@@ -19,18 +19,7 @@ import numpy as np
 
 from tramdva.bogie import track
 from tramdva.bogie.axle import FlexibleAxle, flexible_axle, rigid_offset
-
-AXLES = ("front", "rear")
-WHEELS = ("front_outer", "front_inner", "rear_outer", "rear_inner")
-AXLE_OF_WHEEL = (0, 0, 1, 1)
-SIDE = (-1.0, 1.0, -1.0, 1.0)  # the curve goes to the left: outer wheels are right
-# What a contact sees of its wheel, and what it does to it.
-LOCAL = ("y", "z", "roll", "yaw", "vx", "vy", "vz", "roll_rate", "spin_rate", "yaw_rate")
-FORCES = ("x", "y", "z", "roll", "spin", "yaw")
-ENERGY_CLASSES = (
-    "symmetric_bending", "antisymmetric_bending", "lateral_bending", "axle_torsion", "primary",
-    "secondary", "resilient_wheel", "car_support", "absorber",
-)  # fmt: skip
+from tramdva.bogie.names import AXLE_OF_WHEEL, AXLES, FORCES, LOCAL, SIDE, WHEELS
 
 
 class Vehicle(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach
-from tramdva.creep_force import friction_coefficient
+from tramdva.contact.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
 FASTSIM, POLACH = 0, 1

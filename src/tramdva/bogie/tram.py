@@ -1,0 +1,131 @@
+"""The bogie of a line on its track: absorber designs, systems, equilibria."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tramdva.bogie import track, wheel_forces
+from tramdva.bogie.curving import (
+    HUBS,
+    Equilibrium,
+    System,
+    enter_curve,
+    equilibrium,
+    resting_start,
+    system_on,
+)
+from tramdva.bogie.parameters import BareBogie, BogieAbsorber, Track
+from tramdva.bogie.vehicle import build_vehicle
+from tramdva.contact import patch
+from tramdva.contact.parameters import ContactGeometry
+
+
+class BogieLine(NamedTuple):
+    """Parameters of the bogie on its line, as validated sections.
+
+    friction : mu_0, A, B in s/m
+    tables : contact tables of the zones
+    grid : cells along and strips of the contact patch
+    cutoff_frequency : Hz; elements_per_section : of the axle bridge
+    """
+
+    bogie: BareBogie
+    track: Track
+    contact_geometry: ContactGeometry
+    friction: tuple[float, float, float]
+    tables: tuple
+    grid: tuple[int, int]
+    cutoff_frequency: float
+    elements_per_section: int
+
+
+def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
+    """Absorber of the line with a stiffness and damping; None where these are NaN."""
+    if np.isnan(c_T):
+        return None
+    return line.bogie.absorber.model_copy(update={"c_T": float(c_T), "d_T": float(d_T)})
+
+
+def track_line(line: BogieLine, start: float = 0.0) -> track.TrackLine:
+    """Track that begins to curve at `start` (m)."""
+    t = line.track
+    return track.TrackLine(start, t.transition_length, 1.0 / t.radius, t.cant)
+
+
+def contacts_of(line: BogieLine) -> wheel_forces.Contacts:
+    """Contacts of the vehicle's wheels."""
+    material = line.contact_geometry.material
+    law = patch.contact_law(
+        *line.friction, material.youngs_modulus, material.poisson_ratio, *line.grid
+    )
+    places = wheel_forces.wheel_places(
+        line.bogie.wheel.half_distance,
+        line.contact_geometry.wheel.tape_circle_offset,
+        line.contact_geometry.rail.lateral_position,
+        line.track.speed,
+        line.bogie.wheel.radius,
+    )
+    return wheel_forces.Contacts(line.tables, law, places)
+
+
+def systems(line: BogieLine, design: BogieAbsorber | None, shares) -> list[System]:
+    """The vehicle on tracks with shares of the full curvature and cant."""
+    vehicle = build_vehicle(
+        line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
+    )
+    contacts = contacts_of(line)
+    full = track_line(line)
+    inside = full.transition + 10.0 * line.bogie.half_wheelbase
+    return [
+        system_on(
+            vehicle, contacts,
+            full._replace(curvature=share * full.curvature, cant=share * full.cant),
+            inside, line.bogie.half_wheelbase, line.track.gravity,
+        )
+        for share in shares
+    ]  # fmt: skip
+
+
+class Running(NamedTuple):
+    """The vehicle on the straight and in the curve, with its equilibria."""
+
+    straight: System
+    straight_equilibrium: Equilibrium
+    curve: System
+    equilibrium: Equilibrium
+
+
+def run_through(line: BogieLine, curvature_steps: int) -> Running:
+    """Bogie without absorbers, followed from rest on the straight track into the curve.
+
+    Parameters
+    ----------
+    line : BogieLine
+    curvature_steps : tracks of growing curvature on the way
+    """
+    shares = np.linspace(0.0, 1.0, curvature_steps + 1)
+    tracks = systems(line, None, shares)
+    straight = equilibrium(tracks[0], resting_start(tracks[0]))
+    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks[1:], straight.state))
+
+
+def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Running:
+    """Equilibria of the line with another absorber or friction, from known ones."""
+    straight, curve = systems(line, design, (0.0, 1.0))
+    return Running(
+        straight,
+        equilibrium(straight, transferred(known.straight, known.straight_equilibrium, straight)),
+        curve,
+        equilibrium(curve, transferred(known.curve, known.equilibrium, curve)),
+    )
+
+
+def transferred(source: System, state: Equilibrium, target: System) -> np.ndarray:
+    """State of one vehicle as start for another: coordinates of the same name are kept."""
+    k, n = source.size, target.size
+    out = np.zeros(2 * n + HUBS)
+    position = dict(zip(source.vehicle.names[:k], state.state[:k], strict=True))
+    velocity = dict(zip(source.vehicle.names, state.state[k:], strict=True))
+    out[:n] = [position.get(name, 0.0) for name in target.vehicle.names[:n]]
+    out[n:] = [velocity.get(name, 0.0) for name in target.vehicle.names]
+    return out

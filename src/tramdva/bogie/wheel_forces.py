@@ -1,0 +1,283 @@
+"""Vehicle on the track: the forces of the four wheels in the contact, compiled.
+
+A wheel sees ten local variables (`vehicle.LOCAL`): position and angles of its rim relative to the
+rail (m, rad) and the rates of its six motions relative to the frame of its axle (m/s, rad/s). The
+contact answers with six generalised forces (`vehicle.FORCES`, N and N m). Zones of the profile
+(tread and flange) act at once.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from tramdva.bogie.names import AXLE_OF_WHEEL, FORCES, LOCAL, SIDE
+from tramdva.contact import patch
+
+LOCALS, WHEEL_FORCES = len(LOCAL), len(FORCES)
+
+
+class WheelPlaces(NamedTuple):
+    """Where the wheels are, and how they run; plain arrays and numbers.
+
+    side : (4,); axle : (4,) frame of the wheel's axle in `track.FRAMES`
+    lateral_position : (4,) m, wheel centres from the track centre
+    tape_circle : m outboard of the wheel centre; rail : m, top of the rail outside the tape circle
+    speed : m/s; spin_rate : rad/s of hub and rim at rest in the coordinates
+    """
+
+    side: np.ndarray
+    axle: np.ndarray
+    lateral_position: np.ndarray
+    tape_circle: float
+    rail: float
+    speed: float
+    spin_rate: float
+
+
+class Contacts(NamedTuple):
+    """All that the contacts need: tables of the zones, law, places of the wheels."""
+
+    tables: tuple
+    law: patch.ContactLaw
+    places: WheelPlaces
+
+
+def wheel_places(
+    half_distance: float, tape_circle: float, rail: float, speed: float, wheel_radius: float
+) -> WheelPlaces:
+    """Places of the wheels of a bogie, lengths in m, speed in m/s; see `WheelPlaces`."""
+    side = np.array(SIDE)
+    return WheelPlaces(
+        side,
+        np.array(AXLE_OF_WHEEL) + 1,
+        side * half_distance,
+        tape_circle,
+        rail,
+        speed,
+        speed / wheel_radius,
+    )
+
+
+# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw).
+PLACE = patch.RESULTS
+COLUMNS = PLACE + 4
+# A radius deviation of this size (m) is allowed for.
+_DEVIATION = 1e-4
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _still_apart(result, y, z, roll, yaw):
+    """Whether a zone that was apart cannot touch yet.
+
+    The gap is a distance: it changes by no more than the wheel moves. Its slope in the yaw angle,
+    R tan(delta)^2 tan(yaw), stays below 0.3 m/rad, that in the roll angle below the radius.
+    """
+    if result[patch.STATUS] != patch.NO_CONTACT or result[patch.PENETRATION] >= 0.0:
+        return False
+    moved = abs(y - result[PLACE]) + abs(z - result[PLACE + 1])
+    moved += 0.6 * abs(roll - result[PLACE + 2]) + 0.3 * abs(yaw - result[PLACE + 3])
+    return moved + _DEVIATION + result[patch.PENETRATION] < 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _remember(result, y, z, roll, yaw):
+    """Note where a zone was evaluated."""
+    result[PLACE] = y
+    result[PLACE + 1] = z
+    result[PLACE + 2] = roll
+    result[PLACE + 3] = yaw
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def wheel_forces(
+    contacts, wheel, curvature, local, deviation, deviation_rate, scratch, results, force
+):
+    """Generalised forces of the rail on one wheel.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    wheel : index in `vehicle.WHEELS`
+    curvature : 1/m at the axle's frame
+    local : (10,) local variables of the wheel
+    deviation, deviation_rate : (zones,) m and m/s, radius deviation at the contact of each zone,
+        crest positive
+    scratch : (rows, work) of `patch.contact_workspace`
+    results : (zones, COLUMNS), receives the results of each zone
+    force : (6,), receives the forces
+
+    Notes
+    -----
+    The spin turns about the wheel's own axis (-yaw, 1, roll), which moves with the rim.
+    """
+    places = contacts.places
+    side = places.side[wheel]
+    arm = side * places.tape_circle
+    y, z, roll, yaw = local[0], local[1], local[2], local[3]
+    speed = places.speed
+    turning = speed * curvature
+    spin = places.spin_rate + local[8]
+    yaw_rate = local[9] + turning
+    velocity = (
+        speed - turning * (places.lateral_position[wheel] + y) + local[4] - yaw_rate * arm,
+        local[5],
+        local[6] + local[7] * arm,
+    )
+    rotation = (local[7] - spin * yaw, spin, yaw_rate + spin * roll)
+    position = (y - side * places.rail, z + roll * arm)
+    rolling = speed - turning * places.lateral_position[wheel]
+    force[:] = 0.0
+    for zone in range(len(contacts.tables)):
+        result = results[zone]
+        if _still_apart(result, y, z, roll, yaw):
+            continue
+        f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
+            contacts.tables[zone], contacts.law, side, position, (roll, yaw), velocity, rotation,
+            rolling, deviation[zone], deviation_rate[zone], scratch[0], scratch[1], result,
+        )  # fmt: skip
+        if result[patch.PENETRATION] < 0.0:
+            # A zone that does not touch may lie outside its table.
+            result[patch.STATUS] = patch.NO_CONTACT
+        _remember(result, y, z, roll, yaw)
+        force[0] += f_x
+        force[1] += f_y
+        force[2] += f_z
+        force[3] += m_x + arm * f_z
+        force[4] += m_y - yaw * m_x + roll * m_z
+        force[5] += m_z - arm * f_x
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def all_wheel_forces(
+    contacts, curvatures, local, deviation, deviation_rate, scratch, results, force
+):
+    """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
+
+    `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4, zones).
+    """
+    for wheel in range(4):
+        wheel_forces(
+            contacts,
+            wheel,
+            curvatures[contacts.places.axle[wheel]],
+            local[LOCALS * wheel : LOCALS * (wheel + 1)],
+            deviation[wheel],
+            deviation_rate[wheel],
+            scratch,
+            results[wheel],
+            force[WHEEL_FORCES * wheel : WHEEL_FORCES * (wheel + 1)],
+        )
+
+
+# Steps of the central differences in the local variables, then in radius deviation (m) and its
+# rate (m/s): well below the scales of contact, above rounding.
+_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6, 1e-8, 1e-6])
+
+
+class RadiusSensitivity(NamedTuple):
+    """Derivatives of contact results and wheel forces in the small.
+
+    local : (4, zones, RESULTS, 10), results in the local variables of their wheel
+    deviation : (4, zones, RESULTS, 2), in the zone's radius deviation (m) and its rate (m/s)
+    force : (4, zones, 6, 2), forces on the wheel in a zone's radius deviation and its rate
+    """
+
+    local: np.ndarray
+    deviation: np.ndarray
+    force: np.ndarray
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, jacobian, out):
+    """Fill `jacobian` (4, 6, 10) and the arrays `out` of a `RadiusSensitivity` by differences.
+
+    These are central, with `steps` (12,). The first ten of the `cases` change a local variable,
+    the others radius deviation and rate, zone by zone.
+    """
+    by_local, by_deviation, by_force = out
+    zones = len(contacts.tables)
+    shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
+    for wheel in range(4):
+        curvature = curvatures[contacts.places.axle[wheel]]
+        for case in range(cases):
+            k = case if case < LOCALS else LOCALS + (case - LOCALS) // zones
+            zone = (case - LOCALS) % zones
+            for sign in (1.0, -1.0):
+                for j in range(LOCALS):
+                    shifted[j] = local[LOCALS * wheel + j]
+                for j in range(zones):
+                    radius[0, j] = radius[1, j] = 0.0
+                if k < LOCALS:
+                    shifted[k] += sign * steps[k]
+                else:
+                    radius[k - LOCALS, zone] = sign * steps[k]
+                wheel_forces(
+                    contacts, wheel, curvature, shifted, radius[0], radius[1], scratch,
+                    results[0], force,
+                )  # fmt: skip
+                scale = sign / (2.0 * steps[k])
+                for i in range(WHEEL_FORCES):
+                    if k < LOCALS:
+                        jacobian[wheel, i, k] += scale * force[i]
+                    else:
+                        by_force[wheel, zone, i, k - LOCALS] += scale * force[i]
+                for c in range(patch.RESULTS):
+                    if k < LOCALS:
+                        for j in range(zones):
+                            by_local[wheel, j, c, k] += scale * results[0, j, c]
+                    else:
+                        by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
+
+
+def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
+    """Scratch arrays and array of results for `all_wheel_forces`."""
+    rows, work, _ = patch.contact_workspace(contacts.law)
+    return (rows, work), np.zeros((4, len(contacts.tables), COLUMNS))
+
+
+def contact_forces(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Forces (24,) and results (4, zones, COLUMNS) at local variables (40,) with round wheels."""
+    scratch, results = workspace(contacts)
+    force, zero = np.empty(4 * WHEEL_FORCES), np.zeros((4, len(contacts.tables)))
+    all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
+    return force, results
+
+
+def _derivatives(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float, deviations: bool
+) -> tuple[np.ndarray, RadiusSensitivity]:
+    """Blocks (4, 6, 10) of the Jacobian, and the sensitivity; in radius deviations if wanted."""
+    scratch, results = workspace(contacts)
+    zones = len(contacts.tables)
+    blocks = np.zeros((4, WHEEL_FORCES, LOCALS))
+    out = RadiusSensitivity(
+        np.zeros((4, zones, patch.RESULTS, LOCALS)),
+        np.zeros((4, zones, patch.RESULTS, 2)),
+        np.zeros((4, zones, WHEEL_FORCES, 2)),
+    )
+    cases = LOCALS + 2 * zones if deviations else LOCALS
+    steps = scale * _STEPS
+    _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, blocks, tuple(out))
+    return blocks, out
+
+
+def contact_jacobian(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
+) -> np.ndarray:
+    """Derivatives (24, 40) of the forces in the local variables; `scale` of the steps."""
+    blocks, _ = _derivatives(contacts, curvatures, local, scale, deviations=False)
+    jacobian = np.zeros((4 * WHEEL_FORCES, 4 * LOCALS))
+    for wheel, block in enumerate(blocks):
+        rows = slice(WHEEL_FORCES * wheel, WHEEL_FORCES * (wheel + 1))
+        jacobian[rows, LOCALS * wheel : LOCALS * (wheel + 1)] = block
+    return jacobian
+
+
+def radius_sensitivity(
+    contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
+) -> RadiusSensitivity:
+    """Sensitivity of the contacts at local variables (40,); `scale` of the steps."""
+    return _derivatives(contacts, curvatures, local, scale, deviations=True)[1]

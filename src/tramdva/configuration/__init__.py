@@ -1,0 +1,1 @@
+"""From YAML files to validated values, and which of them each stage uses."""

@@ -1,0 +1,107 @@
+"""Measured files of the lines: where they are, what they hold, and what is wrong with them.
+
+Their names are relative to the folder of the configuration, so that they ship with the lines.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from tramdva.configuration.line import Line
+
+LARGEST = 10_000_000  # bytes; nothing larger is hashed
+
+# Measurements of a line and the keys that name their files.
+KEYS = {
+    "wheel": ("contact_geometry", "wheel", "measured"),
+    "rail": ("contact_geometry", "rail", "measured"),
+    "out_of_roundness": ("out_of_roundness", "measured"),
+}
+
+
+class MeasuredFile(NamedTuple):
+    """A measured file: its path and the SHA-256 of its content."""
+
+    path: str
+    sha256: str
+
+
+class UnusableFileError(ValueError):
+    """A file that cannot be read at all."""
+
+
+def names(line: Line) -> dict[str, str]:
+    """Names of the files of a line by what they measure; only those that are given."""
+    given = {}
+    for what, key in KEYS.items():
+        value = line
+        for part in key:
+            value = getattr(value, part)
+        if value:
+            given[what] = value
+    return given
+
+
+def found(folder: Path, name: str) -> MeasuredFile:
+    """Find a file and hash its content.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the configuration.
+    name : str
+        As in the line.
+
+    Returns
+    -------
+    MeasuredFile
+        The content, not the date, tells whether results are current.
+
+    Raises
+    ------
+    UnusableFileError
+        With what is wrong, without the name.
+    """
+    path = Path(os.path.normpath(folder / name))
+    if not path.is_file():  # a device may have no end
+        raise UnusableFileError(f"there is no file {path}")
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except OSError as error:
+        raise UnusableFileError(f"{path} cannot be read: {error.strerror}") from None
+    if len(content) > LARGEST:
+        raise UnusableFileError(f"{path} is larger than {LARGEST} bytes")
+    return MeasuredFile(path.as_posix(), hashlib.sha256(content).hexdigest())
+
+
+def check_or_exit(files: Mapping[str, Mapping[str, MeasuredFile]]) -> None:
+    """End the program where measured files are wrong, with a line for each, before a run.
+
+    Parameters
+    ----------
+    files : mapping
+        By line and by what they measure.
+    """
+    different = {(what, file.path) for of_line in files.values() for what, file in of_line.items()}
+    problems = [problem for what, path in sorted(different) for problem in _problems(what, path)]
+    if problems:
+        raise SystemExit("\n".join(problems))
+
+
+def _problems(what: str, path: str) -> Iterator[str]:
+    # NumPy is loaded only by runs that have such files.
+    from tramdva.contact.measured_profile import read_profile
+    from tramdva.out_of_roundness import read_measurement
+
+    try:
+        if what == "out_of_roundness":
+            read_measurement(path)
+        else:
+            read_profile(path, what)
+    except ValueError as error:
+        yield str(error)

@@ -1,0 +1,271 @@
+"""Which values of the configuration each stage and each figure uses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from tramdva.bogie.parameters import BareBogie, BogieAbsorber
+from tramdva.configuration import measured_files
+from tramdva.configuration.reading import Configuration
+
+_FORCE = ("curve", "creep_force")
+_WHEELSET = ("wheelset",)
+_WHEELSET_OF_ANY_C_A = tuple(
+    f"wheelset.{name}" for name in ("m_A", "m_R", "d_A", "c_R", "d_R", "L")
+)
+_VARIANTS = (
+    "absorber.m_T",
+    "absorber_variants.name",
+    "absorber_variants.c_T",
+    "absorber_variants.d_T",
+)
+_BOGIE = (
+    "track",
+    "bogie",
+    "contact_geometry",
+    "creep_force.mu_0",
+    "creep_force.A",
+    "creep_force.B",
+    "numerics.bogie",
+)
+# Without self-excitation, for wheels out of round.
+_ROUGH_BOGIE = (
+    "track",
+    *(f"bogie.{name}" for name in BareBogie.model_fields),
+    "contact_geometry",
+    "creep_force.mu_0",
+    "creep_force.A",
+    "forced_excitation.B",
+    "numerics.bogie",
+)
+_ABSORBER_TO_TUNE = tuple(
+    f"bogie.absorber.{name}" for name in BogieAbsorber.model_fields if name not in ("c_T", "d_T")
+)
+_FIGURE = ("label",)
+_FIGURE_WITH_ABSORBER = (*_FIGURE, "absorber.c_T", "absorber.d_T")
+_FIGURE_OF_VARIANTS = ("label", "absorber_variants.name", "absorber_variants.label")
+
+# What each stage and each figure uses. `study.<x>` and `numerics.<x>` come without the <x>.
+USES: dict[str, tuple[str, ...]] = {
+    "stability_map": (
+        *_FORCE,
+        *_WHEELSET,
+        *_VARIANTS,
+        "study.stability_map",
+        "numerics.stability_map",
+    ),
+    "hopf_points": (*_FORCE, *_WHEELSET_OF_ANY_C_A, *_VARIANTS, "numerics.hopf_points"),
+    "limit_cycles": (
+        *_FORCE,
+        *_WHEELSET_OF_ANY_C_A,
+        *_VARIANTS,
+        "study.limit_cycles",
+        "numerics.limit_cycles",
+    ),
+    "hopf_curves": (
+        *_FORCE,
+        *_WHEELSET_OF_ANY_C_A,
+        "absorber.m_T",
+        "study.hopf_curves",
+        "numerics.hopf_curves",
+    ),
+    "critical_hopf_curve": (
+        *_FORCE,
+        *_WHEELSET_OF_ANY_C_A,
+        "absorber.m_T",
+        "study.critical_hopf_curve",
+        "numerics.critical_hopf_curve",
+    ),
+    "cycle_amplitudes": (
+        *_FORCE,
+        *_WHEELSET,
+        "absorber.m_T",
+        "study.cycle_amplitudes",
+        "numerics.cycle_amplitudes",
+    ),
+    "absorber_tuning": (
+        *_FORCE,
+        *_WHEELSET,
+        "absorber",
+        "forced_excitation.B",
+        "study.frequency_response.frequency",
+        "numerics.absorber_tuning",
+    ),
+    "frequency_response": (
+        *_FORCE,
+        *_WHEELSET,
+        "forced_excitation.B",
+        "study.frequency_response",
+        "numerics.frequency_response",
+    ),
+    "contact_geometry": (
+        "contact_geometry",
+        "bogie.wheel.radius",
+        "measured.wheel",
+        "measured.rail",
+        "numerics.contact_geometry",
+    ),
+    "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
+    "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
+    "curve_entry": (*_BOGIE, "study.curve_entry", "numerics.curve_entry"),
+    "bogie_linearisation_none": _ROUGH_BOGIE,
+    "bogie_linearisation_paper": (*_ROUGH_BOGIE, "bogie.absorber"),
+    "bogie_linearisation_tuned": (*_ROUGH_BOGIE, *_ABSORBER_TO_TUNE),
+    "bogie_simulation": (
+        "out_of_roundness",
+        "measured.out_of_roundness",
+        "numerics.bogie_simulation",
+    ),
+    "wear": ("wear", "numerics.wear"),
+    "evolution_tendency": (
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency",
+        "numerics.wear",
+        "numerics.evolution_tendency",
+    ),
+    "tendency_maps": (
+        *_ROUGH_BOGIE,
+        "bogie.absorber",
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency",
+        "study.tendency_maps",
+        "numerics.wear",
+        "numerics.tendency_maps",
+    ),
+    "wheelset_designs": (
+        *_FORCE,
+        *_WHEELSET,
+        "absorber",
+        "forced_excitation.B",
+        "study.stability_map.c_A",
+        "study.stability_map.c_R",
+        "study.frequency_response.frequency",
+        "study.wheelset_designs",
+        "numerics.wheelset_designs",
+    ),
+    "bogie_designs": (
+        *_BOGIE,
+        "forced_excitation.B",
+        "wear",
+        "out_of_roundness.wheels",
+        "study.evolution_tendency.frequency",
+        "study.tendency_maps.design_band",
+        "study.bogie_designs",
+        "numerics.wear",
+        "numerics.bogie_designs",
+    ),
+    "robustness_sample": (
+        *_ROUGH_BOGIE,
+        *_ABSORBER_TO_TUNE,
+        "creep_force.B",
+        "wear",
+        "out_of_roundness.wheels",
+        "study.bogie_modes.frequency",
+        "study.evolution_tendency.peaks",
+        "study.tendency_maps.design_band",
+        "study.design_sheet.conditions",
+        "study.design_sheet.rubber",
+        "numerics.wear",
+        "numerics.robustness_sample",
+    ),
+    "robust_tuning": (
+        "bogie.absorber",
+        "bogie.wheel.radius",
+        "study.bogie_modes.frequency",
+        "study.evolution_tendency.peaks",
+        "study.tendency_maps.design_band",
+        "study.tendency_maps.c_T",
+        "study.tendency_maps.d_T",
+        "study.design_sheet",
+        "numerics.robust_tuning",
+    ),
+    "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
+    "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
+    "fig04_hopf_curves": _FIGURE,
+    "fig05_critical_hopf_curve": _FIGURE_WITH_ABSORBER,
+    "fig06_cycle_amplitudes": _FIGURE,
+    "fig07_frequency_response": _FIGURE,
+    "fig08_bogie": (*_FIGURE, "bogie"),
+    "fig09_curve_entry": (*_FIGURE, "study.curve_entry.entry"),
+    "bogie_mode_shapes": (*_FIGURE, "bogie.wheel.radius"),
+    "bogie_stability": (*_FIGURE, "creep_force.B", "bogie.absorber.motion"),
+    "campbell_chart": (*_FIGURE, "track.speed", "bogie.wheel.radius"),
+    "fig10_evolution_tendency": _FIGURE,
+    "worn_wheels": (*_FIGURE, "study.tendency_maps.design_band"),
+    "order_speed_chart": (*_FIGURE, "bogie.wheel.radius"),
+    "tendency_design_chart": (
+        *_FIGURE,
+        "study.tendency_maps.design_band",
+        "bogie.absorber.motion",
+    ),
+    "table2_absorber_designs": (),
+    "table_absorber_effect": (),
+    "explorer": (
+        *_FIGURE,
+        "creep_force.B",
+        "forced_excitation.B",
+        "bogie.absorber.motion",
+        "study.tendency_maps.design_band",
+    ),
+    "design_sheet": (
+        *_FIGURE,
+        "creep_force.mu_0",
+        "creep_force.B",
+        "forced_excitation.B",
+        "track",
+        "bogie.absorber",
+        "bogie.car_body.mass",
+        "bogie.wheel.radius",
+        "study.bogie_modes.B_max",
+        "study.bogie_modes.frequency",
+        "study.tendency_maps.design_band",
+        "study.design_sheet",
+    ),
+}
+
+
+def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
+    """Return exactly the values that a stage or figure of a line uses.
+
+    Parameters
+    ----------
+    config : Configuration
+        The whole configuration.
+    line : str
+        Name of the line.
+    name : str
+        Name of the stage or figure, a key of `STAGES`.
+
+    Returns
+    -------
+    dict
+        Plain nested maps, lists, numbers and texts in SI units; the entries of `study` and
+        `numerics` are those of this stage; `measured` holds the hashes of measured files.
+    """
+    everything = config.lines[line].model_dump(mode="json")
+    measured = config.measured[line]
+    everything["measured"] = {
+        what: measured[what].sha256 if what in measured else "" for what in measured_files.KEYS
+    }
+    everything["numerics"] = config.run.numerics.model_dump(mode="json")
+    values = _select(everything, [tuple(path.split(".")) for path in USES[name]])
+    for section in ("study", "numerics"):
+        if section in values:
+            values[section] = {k: v for part in values[section].values() for k, v in part.items()}
+    return values
+
+
+def _select(tree: Any, paths: Sequence[tuple[str, ...]]) -> Any:
+    if () in paths:
+        return tree
+    if isinstance(tree, list):
+        return [_select(item, paths) for item in tree]
+    heads = {path[0] for path in paths}
+    return {
+        key: _select(value, [path[1:] for path in paths if path[0] == key])
+        for key, value in tree.items()
+        if key in heads
+    }

@@ -1,0 +1,1 @@
+"""Wheel orders: out-of-roundness, wear response, evolution tendency (figure 10)."""

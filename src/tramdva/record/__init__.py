@@ -1,0 +1,1 @@
+"""Where a figure or a number comes from: inventory, records, crate, archive."""

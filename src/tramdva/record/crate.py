@@ -1,0 +1,314 @@
+"""Describe the results of a run as an RO-Crate: `python3 run.py crate`.
+
+`ro-crate-metadata.json` names every file of the run and of the sources with size and checksum, and
+for every job the script, the files it read, the values of the configuration it used, the hash of
+its code, what it made and when. With it go the commit, the packages and the version of Python. It
+follows RO-Crate 1.1 and the profile Workflow Run Crate 0.5, whose words are schema.org's.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import json
+import mimetypes
+import platform
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tramdva import results
+from tramdva.record import run_record
+from tramdva.record.run_record import IncompleteRunError, Made
+
+NAME = "ro-crate-metadata.json"
+CONTEXT = [
+    "https://w3id.org/ro/crate/1.1/context",
+    {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"},
+]
+PROFILES = {
+    "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
+    "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
+}
+FORMATS = {
+    ".nc": "application/x-netcdf",
+    ".yaml": "application/yaml",
+    ".md": "text/markdown",
+    ".cff": "application/yaml",
+}
+WORKFLOW = "Snakefile"
+CODE = re.compile("[0-9a-f]{20}")  # a hash of code among the parameters of a job
+LOCKED = re.compile(r"^([A-Za-z0-9._-]+)==([^ ;\\]+)", re.MULTILINE)
+
+Entity = dict[str, Any]
+
+
+def write(arguments: Sequence[str]) -> list[Made]:
+    """Describe the run in the current folder.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Arguments that the run was given, for snakemake.
+
+    Returns
+    -------
+    list of Made
+        The files of the run.
+
+    Raises
+    ------
+    IncompleteRunError
+        Where files are missing, stale or not made by the pipeline.
+    """
+    if any(argument.startswith(("--directory", "-d")) for argument in arguments):
+        raise IncompleteRunError("a crate describes results beside their sources: no --directory")
+    made = run_record.files_of_run(arguments)
+    crate = {"@context": CONTEXT, "@graph": graph(made, arguments)}
+    text = json.dumps(crate, indent=1, ensure_ascii=False) + "\n"
+    with results.atomically(NAME) as part:
+        part.write_text(text, encoding="utf-8")
+    return made
+
+
+def graph(made: Sequence[Made], arguments: Sequence[str]) -> list[Entity]:
+    """Return all entities of the crate, each once."""
+    sources = [name for name in run_record.sources() if name != NAME]
+    inputs = {path for file in made for path in file.inputs}
+    known = {*sources, *(file.path for file in made)}
+    further = sorted(path for path in inputs - known if Path(path).is_file())
+    jobs = list(_jobs(made))
+    entities = [
+        *_root(sources + further + [file.path for file in made], jobs),
+        *_people(),
+        _commit(),
+        *_workflow(),
+        *_packages(),
+        *(_file(name) for name in sources + further if name != WORKFLOW),
+        *(_result(file) for file in made),
+        *jobs,
+        *(value for file in made for value in _values(file)),
+        *_run(made, jobs, arguments),
+    ]
+    return list({entity["@id"]: entity for entity in entities}.values())
+
+
+def _root(files: Iterable[str], jobs: Sequence[Entity]) -> Iterator[Entity]:
+    citation = _citation()
+    profiles = _refer(PROFILES)
+    yield {
+        "@id": NAME,
+        "@type": "CreativeWork",
+        "about": {"@id": "./"},
+        "conformsTo": [{"@id": "https://w3id.org/ro/crate/1.1"}, profiles[-1]],
+    }
+    yield {
+        "@id": "./",
+        "@type": "Dataset",
+        "name": citation["title"],
+        "description": "Sources, numbers and figures of a run of tramdva.",
+        "version": citation["version"],
+        "datePublished": datetime.now(UTC).isoformat(timespec="seconds"),
+        "license": {"@id": _licence(citation)},
+        "author": _refer(_author_id(author) for author in citation["authors"]),
+        "conformsTo": profiles,
+        "identifier": {"@id": "#commit"},
+        "mainEntity": {"@id": WORKFLOW},
+        "hasPart": _refer(files),
+        "mentions": [{"@id": "#run"}, *_refer(job["@id"] for job in jobs)],
+    }
+    for profile, name in PROFILES.items():
+        yield {"@id": profile, "@type": "CreativeWork", "name": name}
+    yield {"@id": _licence(citation), "@type": "CreativeWork", "name": citation["license"]}
+
+
+def _citation() -> dict[str, Any]:
+    return yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
+
+
+def _licence(citation: Mapping[str, Any]) -> str:
+    return f"https://spdx.org/licenses/{citation['license']}"
+
+
+def _author_name(author: Mapping[str, str]) -> str:
+    names = (author.get("given-names"), author.get("family-names"), author.get("name"))
+    return " ".join(name for name in names if name)
+
+
+def _author_id(author: Mapping[str, str]) -> str:
+    return author.get("orcid") or "#author-" + re.sub(r"\W+", "-", _author_name(author).lower())
+
+
+def _people() -> Iterator[Entity]:
+    for author in _citation()["authors"]:
+        kind = "Person" if "family-names" in author else "Organization"
+        yield {"@id": _author_id(author), "@type": kind, "name": _author_name(author)}
+
+
+def _commit() -> Entity:
+    """State the commit and whether the sources are those of it."""
+    commit = run_record.commit()
+    changes = run_record.changes() if commit else []
+    state = f"sources differ from the commit: {', '.join(changes)}" if changes else "sources of it"
+    return {
+        "@id": "#commit",
+        "@type": "PropertyValue",
+        "propertyID": "git commit",
+        "name": "commit of the sources",
+        "value": commit or "unknown",
+        "description": state if commit else "the sources are no git checkout",
+    }
+
+
+def _workflow() -> Iterator[Entity]:
+    yield {
+        **_file(WORKFLOW),
+        "@type": ["File", "SoftwareSourceCode", "ComputationalWorkflow"],
+        "name": "tramdva",
+        "version": _citation()["version"],
+        "programmingLanguage": {"@id": "#snakemake"},
+        "softwareRequirements": [
+            {"@id": "#python"},
+            *_refer(f"#package-{name}" for name in _installed()),
+        ],
+    }
+    yield {
+        "@id": "#snakemake",
+        "@type": "ComputerLanguage",
+        "name": "Snakemake",
+        "version": importlib.metadata.version("snakemake"),
+        "url": {"@id": "https://snakemake.github.io"},
+    }
+
+
+def _installed() -> dict[str, str]:
+    """Return the versions of the packages of the lock file, as they are installed."""
+    locked = dict(LOCKED.findall(Path("requirements.lock").read_text(encoding="utf-8")))
+    there = {
+        re.sub(r"[-_.]+", "-", package.name).lower(): package.version
+        for package in importlib.metadata.distributions()
+    }
+    return {name: there[name] for name in locked if name in there}
+
+
+def _packages() -> Iterator[Entity]:
+    yield {
+        "@id": "#python",
+        "@type": "SoftwareApplication",
+        "name": platform.python_implementation(),
+        "version": platform.python_version(),
+        "operatingSystem": f"{platform.system()} on {platform.machine()}",
+    }
+    for name, version in _installed().items():
+        yield {
+            "@id": f"#package-{name}",
+            "@type": "SoftwareApplication",
+            "name": name,
+            "version": version,
+        }
+
+
+def _file(path: str) -> Entity:
+    """Describe a file by its size, checksum and format; a script is a program as well."""
+    kind = FORMATS.get(Path(path).suffix) or mimetypes.guess_type(path)[0]
+    is_code = path.endswith(".py") or path == WORKFLOW
+    return {
+        "@id": path,
+        "@type": ["File", "SoftwareSourceCode"] if is_code else "File",
+        "name": path,
+        "contentSize": str(Path(path).stat().st_size),
+        "sha256": run_record.sha256(path),
+        **({"encodingFormat": kind} if kind else {}),
+    }
+
+
+def _result(file: Made) -> Entity:
+    """Describe a file of the run; result files say themselves what they are."""
+    if not file.path.endswith(".nc"):
+        return _file(file.path)
+    stamps = results.read_stamps(file.path)
+    title, version = stamps["title"], stamps["tramdva_version"]
+    return {**_file(file.path), "description": title, "version": version}
+
+
+def _jobs(made: Sequence[Made]) -> Iterator[Entity]:
+    """Describe each job: a rule for some wildcards, which made one or several files."""
+    jobs: dict[tuple[str, tuple[str, ...]], list[Made]] = {}
+    for file in made:
+        jobs.setdefault((file.rule, file.log), []).append(file)
+    for (rule, _), files in jobs.items():
+        first = files[0]
+        yield {
+            "@id": f"#job/{first.path}",
+            "@type": "CreateAction",
+            "name": rule,
+            "instrument": {"@id": script_of(rule)},
+            "object": _refer([*first.inputs, *(value["@id"] for value in _values(first))]),
+            "result": _refer(file.path for file in files),
+            "startTime": _time(first.record["starttime"]),
+            "endTime": _time(max(file.record["endtime"] for file in files)),
+            "actionStatus": {"@id": "http://schema.org/CompletedActionStatus"},
+        }
+
+
+def script_of(rule: str) -> str:
+    """Return the script of a rule, which bears its name; the Snakefile for one without."""
+    for folder in ("workflow/scripts", "paper_figures"):
+        if Path(folder, f"{rule}.py").is_file():
+            return f"{folder}/{rule}.py"
+    return WORKFLOW
+
+
+def _values(file: Made) -> Iterator[Entity]:
+    """Describe the parameters of a job; jobs with the same ones share the entity."""
+    for value in file.values:
+        is_code = isinstance(value, str) and CODE.fullmatch(value)
+        text = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+        digest = hashlib.sha256(text.encode()).hexdigest()[:16]
+        yield {
+            "@id": f"#value-{digest}",
+            "@type": "PropertyValue",
+            "name": "hash of the code" if is_code else "values of the configuration",
+            "value": text,
+        }
+
+
+def _run(made: Sequence[Made], jobs: Sequence[Entity], arguments: Sequence[str]) -> list[Entity]:
+    """Describe the run as a whole: the configuration it read and everything it made."""
+    lines = sorted({file.path.split("/")[1] for file in made})
+    named = ["config/config.yaml", *(f"config/lines/{line}.yaml" for line in ("paper", *lines))]
+    given = [argument for argument in arguments if argument.endswith((".yaml", ".yml"))]
+    files = [name for name in dict.fromkeys([*named, *given]) if Path(name).is_file()]
+    return [
+        {
+            "@id": "#run",
+            "@type": "CreateAction",
+            "name": f"run of the pipeline for {', '.join(lines)}",
+            "instrument": {"@id": WORKFLOW},
+            "object": [*_refer(files), {"@id": "#arguments"}],
+            "result": _refer(file.path for file in made),
+            "startTime": min(job["startTime"] for job in jobs),
+            "endTime": max(job["endTime"] for job in jobs),
+            "actionStatus": {"@id": "http://schema.org/CompletedActionStatus"},
+        },
+        {
+            "@id": "#arguments",
+            "@type": "PropertyValue",
+            "name": "arguments of snakemake",
+            "value": " ".join(arguments),
+        },
+        *(_file(name) for name in given if name in files),
+    ]
+
+
+def _time(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds")
+
+
+def _refer(names: Iterable[str]) -> list[dict[str, str]]:
+    return [{"@id": name} for name in dict.fromkeys(names)]

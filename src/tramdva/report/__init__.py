@@ -1,0 +1,1 @@
+"""Figures, tables, design sheet and explorer, for the scripts in `paper_figures`."""

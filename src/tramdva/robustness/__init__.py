@@ -1,0 +1,1 @@
+"""An absorber under conditions that vary."""

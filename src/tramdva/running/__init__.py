@@ -1,0 +1,1 @@
+"""What runs the stages beside Snakemake: code hashes, compiled kernels, supervision, logs."""

@@ -1,0 +1,1 @@
+"""One module per rule: configuration and earlier results in, variables of a result file out."""

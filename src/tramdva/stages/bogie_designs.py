@@ -1,0 +1,146 @@
+"""The stage `bogie_designs`: evolution tendency and self-excitation with any absorber.
+
+Every design of a grid of stiffness and damping is computed by itself; nothing is interpolated.
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tramdva.bogie.absorbers import family_of
+from tramdva.bogie.curving import linearise, oscillations
+from tramdva.bogie.tram import BogieLine, Running, changed, run_through
+from tramdva.evolution.any_absorber import any_absorber
+from tramdva.evolution.tendency import order_of_frequency
+from tramdva.stages.axes import design_axis
+from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
+from tramdva.stages.wheels_out_of_round import wearing
+from tramdva.variables.bogie_designs import VARIABLES
+
+__all__ = ["VARIABLES", "compute"]
+
+
+class _Excitation(NamedTuple):
+    """Whether the bogie vibrates by itself: growth rate in 1/s, its frequency in Hz, and kind."""
+
+    growth_rate: float
+    leading_frequency: float
+    self_excitation: str
+
+
+def compute(
+    cfg: Mapping[str, Any], contact_geometry: Mapping[str, np.ndarray]
+) -> dict[str, np.ndarray]:
+    """Evolution tendency and growth rates of the bogie over the absorbers' c_T and d_T.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, ``wear``, ``out_of_roundness.wheels``, ``study``, ``numerics``
+    contact_geometry : variables of this file
+
+    Returns
+    -------
+    Variables of ``bogie_designs``. Growth rates hold at the friction decrease of operation, the
+    tendency at that of the forced excitation; where the bogie vibrates by itself there too, or
+    has no equilibrium, it is NaN and ``quiet_self_excitation`` says so.
+    """
+    study, numerics = cfg["study"], cfg["numerics"]
+    lines = bogie_line(cfg, contact_geometry), quiet_bogie_line(cfg, contact_geometry)
+    operating, quiet = (run_through(line, numerics["curvature_steps"]) for line in lines)
+    own = lines[0].bogie.absorber
+    c_T = design_axis(study["c_T"], numerics["c_T_points"], own.c_T)
+    d_T = design_axis(study["d_T"], numerics["d_T_points"], own.d_T)
+    ends = study["frequency"]
+    frequency = np.linspace(ends["min"], ends["max"], numerics["frequency_points"])
+    excited = _over_designs(lines[0], operating, c_T, d_T, study["self_excitation"])
+    excited_quietly = _over_designs(lines[1], quiet, c_T, d_T, study["self_excitation"])
+    none = _none(operating, quiet, study["self_excitation"])
+    steady = {
+        "none": none["none_quiet_self_excitation"] == "stable",
+        "designs": excited_quietly["self_excitation"] == "stable",
+    }
+    track, radius = lines[0].track, lines[0].bogie.wheel.radius
+    return {
+        "d_T": d_T,
+        "c_T": c_T,
+        "m_T": own.I_T,
+        "own_d_T": own.d_T,
+        "own_c_T": own.c_T,
+        "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
+        "frequency": frequency,
+        "order": order_of_frequency(frequency, track.speed, radius),
+        **excited,
+        **{f"quiet_{name}": excited_quietly[name] for name in ("growth_rate", "self_excitation")},
+        **none,
+        **_tendencies(cfg, lines[1], quiet, c_T, d_T, frequency, steady),
+    }
+
+
+def _excitation(matrix: np.ndarray, limits: Mapping[str, float]) -> _Excitation:
+    """Least stable oscillation of a linearised vehicle with a frequency (Hz) within limits."""
+    values = oscillations(np.linalg.eigvals(matrix), (limits["min"], limits["max"]))
+    if not values.size:
+        return _Excitation(np.nan, np.nan, "no_oscillation")
+    top = values[np.argmax(values.real)]
+    kind = "stable" if top.real < 0.0 else "self_excited"
+    return _Excitation(float(top.real), float(top.imag / (2.0 * np.pi)), kind)
+
+
+def _of_run(run: Running, limits: Mapping[str, float]) -> _Excitation:
+    if run.equilibrium.status != "converged":
+        return _Excitation(np.nan, np.nan, "no_equilibrium")
+    return _excitation(linearise(run.curve, run.equilibrium.state).matrix, limits)
+
+
+def _none(operating: Running, quiet: Running, limits: Mapping[str, float]) -> dict[str, Any]:
+    """The same of the bogie without absorbers."""
+    loud, calm = _of_run(operating, limits), _of_run(quiet, limits)
+    return {
+        **{f"none_{name}": value for name, value in loud._asdict().items()},
+        "none_quiet_growth_rate": calm.growth_rate,
+        "none_quiet_self_excitation": calm.self_excitation,
+    }
+
+
+def _over_designs(
+    line: BogieLine, known: Running, c_T: np.ndarray, d_T: np.ndarray, limits: Mapping[str, float]
+) -> dict[str, np.ndarray]:
+    """Least stable oscillation (d_T, c_T) by name."""
+    found = [_Excitation(np.nan, np.nan, "no_equilibrium")] * (d_T.size * c_T.size)
+    design = line.bogie.absorber
+    if known.equilibrium.status == "converged":
+        run = changed(line, design, known)
+        if run.equilibrium.status == "converged":
+            family = family_of(design, run)
+            members = (family.member(c, d)[1] for d in d_T for c in c_T)
+            found = [_excitation(linear.matrix, limits) for linear in members]
+    shape = d_T.size, c_T.size
+    return {
+        name: np.array([getattr(entry, name) for entry in found]).reshape(shape)
+        for name in _Excitation._fields
+    }
+
+
+def _tendencies(cfg, line: BogieLine, quiet: Running, c_T, d_T, frequency, steady) -> dict:
+    """Tendency of every steady design, and what it leaves of the growth in the band of design."""
+    band, wheels = cfg["study"]["design_band"], cfg["out_of_roundness"]["wheels"]
+    near = (frequency >= band["min"]) & (frequency <= band["max"])
+    tendency = np.full((d_T.size, c_T.size, len(wheels), frequency.size), np.nan)
+    without = np.full((len(wheels), frequency.size), np.nan)
+    if quiet.equilibrium.status == "converged":
+        attached = any_absorber(wearing(cfg), line, quiet.curve, quiet.equilibrium, frequency)
+        if steady["none"]:
+            without = attached.without().T
+        for i, j in zip(*np.nonzero(steady["designs"]), strict=True):
+            tendency[i, j] = attached.tendency(c_T[j], d_T[i]).T
+    reference = without[:, near].max(axis=1, initial=-np.inf)
+    found = reference > 0.0
+    factor = tendency[..., near].max(axis=-1, initial=-np.inf) / np.where(found, reference, np.nan)
+    return {
+        "status": quiet.equilibrium.status,
+        "tendency": tendency,
+        "none_tendency": without,
+        "band_status": np.where(found, "found", "no_peak"),
+        "band_factor": factor,
+    }

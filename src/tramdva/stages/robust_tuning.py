@@ -1,0 +1,342 @@
+"""The stage `robust_tuning`: the absorber that is best in the worst case, and what it leaves."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tramdva.bogie import absorber_ports
+from tramdva.bogie.absorber_ports import Motion
+from tramdva.evolution.tendency import NEAR, order_of_frequency
+from tramdva.robustness.criterion import (
+    Criterion,
+    Design,
+    Fleet,
+    Shares,
+    fleet,
+    optimum,
+    references,
+    tolerance,
+)
+from tramdva.robustness.sample import assembled, stored_motion
+from tramdva.variables.robust_tuning import VARIABLES
+
+__all__ = ["VARIABLES", "compute"]
+
+DESIGNS = ("none", "paper", "nominal", "robust")
+NONE, PAPER, NOMINAL, ROBUST = range(4)
+RUBBER_ENDS = ("stiffness_min", "stiffness_max", "damping_min", "damping_max")
+FORCED, OPERATING = range(2)
+LOADS = (
+    "carrier_amplitude", "stroke_amplitude", "torque_amplitude", "dissipated_power",
+    "load_frequency", "load_order",
+)  # fmt: skip
+# A search asks for signs of growth rates: those of the modes below this multiple of the frequencies
+# that count are enough (they differ by less than 0.1 1/s), unless they are near zero.
+_MODES_UP_TO = 1.25
+_UNDECIDED = 1.0  # 1/s
+
+
+def compute(
+    cfg: Mapping[str, Any], robustness_sample: Sequence[Mapping[str, np.ndarray]]
+) -> dict[str, np.ndarray]:
+    """Nominal and robust optimum of the absorber, and what each leaves in every case.
+
+    Parameters
+    ----------
+    cfg : sections ``bogie.absorber``, ``track``, ``bogie.wheel.radius``, ``study``, ``numerics``
+    robustness_sample : variables of all parts
+
+    Returns
+    -------
+    Variables of ``robust_tuning``.
+    """
+    sample, study = assembled(robustness_sample), cfg["study"]
+    absorber = cfg["bogie"]["absorber"]
+    c_T, d_T = (
+        np.linspace(study[name]["min"], study[name]["max"], cfg["numerics"]["map_points"])
+        for name in ("c_T", "d_T")
+    )
+    common = {
+        **{
+            name: sample[name] for name in ("case", "varied", "range", "share", "wheel", "friction")
+        },
+        "case_status": sample["status"],
+        "design": np.array(DESIGNS),
+        "map_c_T": c_T,
+        "map_d_T": d_T,
+    }
+    whole = fleet(sample, absorber["I_T"])
+    if not (whole.case == 0).any():
+        return common | _without_nominal(cfg, sample, c_T.size, d_T.size)
+    nominal, robust = _criteria(cfg, sample, whole)
+    restless = sample["bare_growth_rate"][whole.case, OPERATING] >= 0.0
+    suspects = [np.flatnonzero(restless[:1]), np.flatnonzero(restless)]
+    at_nominal, nominal_map = optimum(nominal, c_T, d_T, suspects[0])
+    at_all, robust_map = optimum(robust, c_T, d_T, suspects[1])
+    robust = robust._replace(counted=at_all.counted)
+    designs = [None, (absorber["c_T"], absorber["d_T"]), at_nominal.design, at_all.design]
+    growth = _growth_rates(cfg, sample, designs)
+    steady = growth[..., FORCED] < 0.0
+    values = {
+        **common,
+        "status": np.array(["converged", "converged", at_nominal.status, at_all.status]),
+        "map_nominal_factor": nominal_map,
+        "map_worst_factor": robust_map,
+        **_design_values(cfg, designs),
+        "counted": np.isin(sample["case"], sample["case"][whole.case[at_all.counted]]),
+        **_factors(cfg, sample, designs, nominal, robust, suspects[1]),
+        "tolerance": np.array(
+            [
+                np.full((2, 2), np.nan),
+                np.full((2, 2), np.nan),
+                tolerance(nominal, at_nominal, study["tolerance"], c_T, d_T, suspects[0]),
+                tolerance(robust, at_all, study["tolerance"], c_T, d_T, suspects[1]),
+            ]
+        ),
+        **_peak_factors(cfg, sample, whole, designs),
+        "growth_rate": growth,
+        **_loads(cfg, sample, robust.fleet, designs),
+    }
+    # A self-excited bogie answers no wave steadily.
+    for name in ("factor", "peak_factor", *LOADS):
+        there = steady.reshape(*steady.shape, *[1] * (values[name].ndim - 2))
+        values[name] = np.where(there, values[name], np.nan)
+    return values
+
+
+def _criteria(
+    cfg: Mapping[str, Any], sample: Mapping[str, np.ndarray], whole: Fleet
+) -> tuple[Criterion, Criterion]:
+    """Criteria of the nominal and of the robust optimum."""
+    band = cfg["study"]["design_band"]
+    count = len(whole.case)
+    near = whole.within(np.full(count, band["min"]), np.full(count, band["max"]))
+    reference = references(near.largest(None), near.steady)
+    alone = references(near.largest(None)[:1], near.steady[:1])
+
+    cases = [stored_motion(sample, c, OPERATING) for c in range(whole.case[-1] + 1)]
+    low = [motion.below(_MODES_UP_TO * cfg["study"]["frequency"]["max"]) for motion in cases]
+
+    def growth(case: int, design: Design) -> float:
+        rough = _growth(cfg, low[case], design)
+        return rough if abs(rough) > _UNDECIDED else _growth(cfg, cases[case], design)
+
+    everywhere = np.ones(count, bool)
+    corners = tuple(dict.fromkeys([(1.0, 1.0), *_corners(cfg["study"])]))
+    return (
+        Criterion(near.only([0]), alone, everywhere[:1], corners[:1], growth),
+        Criterion(near, reference, everywhere, corners, growth),
+    )
+
+
+def _corners(study: Mapping[str, Any]) -> list[Shares]:
+    stiffness, damping = study["rubber"]["stiffness"], study["rubber"]["damping"]
+    return [(stiffness[c], damping[d]) for c in ("min", "max") for d in ("min", "max")]
+
+
+def _growth(cfg, motion: Motion, design: Design) -> float:
+    """Growth rate in 1/s of a bogie with a design."""
+    limits = cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"]
+    eigenvalue = absorber_ports.with_absorbers(motion, cfg["bogie"]["absorber"]["I_T"], *design)
+    return absorber_ports.growth_rate(eigenvalue, limits)
+
+
+def _growth_rates(cfg, sample, designs: Sequence[Design | None]) -> np.ndarray:
+    """Growth rates (design, case, friction) with the absorber's own shares in each case."""
+    out = np.full((len(designs), len(sample["case"]), 2), np.nan)
+    out[NONE] = sample["bare_growth_rate"]
+    for row, design in enumerate(designs):
+        if design is None or not np.isfinite(design[0]):
+            continue
+        for case in np.flatnonzero(sample["status"] == "converged"):
+            c, d = sample["share"][case, -2:]
+            own = (design[0] * c, design[1] * d)
+            out[row, case] = [
+                _growth(cfg, stored_motion(sample, case, friction), own)
+                for friction in (FORCED, OPERATING)
+            ]
+    return out
+
+
+def _design_values(cfg, designs: Sequence[Design | None]) -> dict[str, np.ndarray]:
+    """Values of the absorbers themselves by design."""
+    absorber, study = cfg["bogie"]["absorber"], cfg["study"]
+    stiffness, damping = np.array([design or (np.nan, np.nan) for design in designs]).T
+    there = np.array([design is not None for design in designs])
+    inertia = np.where(there, absorber["I_T"], np.nan)
+    turns = absorber["motion"] == "rotation"
+    mass = inertia / study["gyration_radius"] ** 2 if turns else inertia
+    return {
+        "I_T": inertia,
+        "c_T": stiffness,
+        "d_T": damping,
+        "tuned_frequency": np.sqrt(stiffness / inertia) / (2.0 * np.pi),
+        "damping_ratio": damping / (2.0 * np.sqrt(stiffness * inertia)),
+        "added_mass": mass,
+    }
+
+
+def _factors(
+    cfg, sample, designs, nominal: Criterion, robust: Criterion, suspects: Sequence[int]
+) -> dict[str, np.ndarray]:
+    """What designs leave of the growth in the band of design."""
+    cases, rows = len(sample["case"]), robust.fleet.case
+    shares = tuple(sample["share"][rows, -2:].T)
+    factor, reference = np.full((len(designs), cases), np.nan), np.full(cases, np.nan)
+    reference[rows] = robust.reference
+    rubber = np.full((len(designs), len(RUBBER_ENDS)), np.nan)
+    worst, alone, restless = (np.full(len(designs), np.nan) for _ in range(3))
+    ends = cfg["study"]["rubber"]
+    for k, design in enumerate(designs):
+        if design is not None and not np.isfinite(design[0]):
+            continue
+        factor[k, rows] = robust.factors(design, shares)
+        if design is None or not robust.grows:
+            continue
+        if robust.counted.any():
+            worst[k] = robust.worst(design)
+            restless[k] = len(robust.violated(design, suspects))
+        if nominal.grows:
+            alone[k] = nominal.worst(design)
+            for e, name in enumerate(RUBBER_ENDS):
+                kind, _, end = name.partition("_")
+                share = ends[kind][end]
+                pair = (share, 1.0) if kind == "stiffness" else (1.0, share)
+                rubber[k, e] = nominal.factors(design, pair)[0]
+    return {
+        "factor": factor,
+        "reference": reference,
+        "worst_factor": worst,
+        "self_excited_cases": restless,
+        "nominal_factor": alone,
+        "rubber_end": np.array(RUBBER_ENDS),
+        "rubber_factor": rubber,
+    }
+
+
+def _peak_factors(cfg, sample, whole: Fleet, designs) -> dict[str, np.ndarray]:
+    """What designs leave of each peak (design, case, wheel, peak).
+
+    The largest tendency within `NEAR` of the peak without absorbers; reference as in `references`.
+    A case without the peak, or self-excited, is compared at the frequency of the nominal one's.
+    """
+    peaks = cfg["study"]["peaks"]
+    shape = (len(sample["case"]), len(sample["wheel"]), len(peaks))
+    factor = np.full((len(designs), *shape), np.nan)
+    top = np.full(shape, np.nan)
+    bare = whole.tendency(None)
+    for p, peak in enumerate(peaks):
+        for w in range(shape[1]):
+            curves = zip(whole.frequency, bare[..., w], strict=True)
+            own = np.array([_top(axis, curve, peak) for axis, curve in curves])
+            own[~whole.steady] = np.nan
+            top[whole.case, w, p] = own
+            place = np.where(np.isfinite(own), own, own[0])
+            if not np.isfinite(place).any():
+                continue
+            seen = np.flatnonzero(np.isfinite(place))
+            part = whole.only(seen).within(place[seen] * (1.0 - NEAR), place[seen] * (1.0 + NEAR))
+            reference = _peak_reference(part.largest(None)[:, w], part, own[seen])
+            shares = tuple(sample["share"][part.case, -2:].T)
+            for k, design in enumerate(designs):
+                if design is None or np.isfinite(design[0]):
+                    value = part.largest(design, shares)[:, w]
+                    factor[k, part.case, w, p] = value / reference
+    return {
+        "peak": np.array([peak["name"] for peak in peaks]),
+        "peak_frequency": top,
+        "peak_factor": factor,
+    }
+
+
+def _peak_reference(bare: np.ndarray, part: Fleet, top: np.ndarray) -> np.ndarray:
+    """Reference (s,) of one peak; the line as configured is first, if it has the peak."""
+    height = np.where(np.isfinite(top), bare, -np.inf)
+    own = height[0] if part.case[0] == 0 and np.isfinite(height[0]) else -np.inf
+    return np.maximum(height, own)
+
+
+def _top(frequency: np.ndarray, tendency: np.ndarray, band: Mapping[str, float]) -> float:
+    """Frequency in Hz of the highest positive peak in a band; NaN if there is none."""
+    inside = (frequency >= band["min"]) & (frequency <= band["max"])
+    axis, first = np.unique(frequency[inside], return_index=True)
+    curve = tendency[inside][first]
+    middle = curve[1:-1]
+    tops = 1 + np.flatnonzero((middle > 0.0) & (middle >= curve[:-2]) & (middle > curve[2:]))
+    return float(axis[tops[np.argmax(curve[tops])]]) if tops.size else np.nan
+
+
+def _loads(cfg, sample, near: Fleet, designs) -> dict[str, np.ndarray]:
+    """Stroke, torque and power of an absorber and motion of its place in the band of design.
+
+    By a wave of the study's amplitude, at the frequency (Hz) that is worst for each; nominal, and
+    the largest of all cases with the absorber's own shares. A self-excited case has none.
+    """
+    amplitude, cases = cfg["study"]["wave_amplitude"], len(sample["case"])
+    names = ("carrier", "stroke", "torque", "power")
+    out = {f"{name}_amplitude": np.full((len(designs), cases), np.nan) for name in names}
+    load_frequency = np.full((len(designs), cases), np.nan)
+    turn = near.modes.angular_frequency
+    c, d = sample["share"][near.case, -2:].T[:, :, None]
+    for k, design in enumerate(designs):
+        if design is not None and not np.isfinite(design[0]):
+            continue
+        stiffness, damping = (0.0, 0.0) if design is None else design
+        # Without absorbers: nothing moves relative to anything.
+        inertia = near.inertia if design is not None else 0.0
+        spring = np.maximum(stiffness * c, np.finfo(float).tiny) + 1j * turn * damping * d
+        carrier = np.abs(near.modes.carrier(inertia, spring.real, damping * d)).max(axis=2)
+        stroke = np.abs(near.modes.stroke(inertia, spring.real, damping * d)).max(axis=2)
+        values = {
+            "carrier": amplitude * carrier,
+            "stroke": amplitude * stroke,
+            "torque": amplitude * np.abs(spring) * stroke,
+            "power": 0.5 * damping * d * (turn * amplitude * stroke) ** 2,
+        }
+        for name, value in values.items():
+            out[f"{name}_amplitude"][k, near.case] = value.max(axis=1)
+        decisive = values["carrier" if design is None else "torque"].argmax(axis=1)
+        load_frequency[k, near.case] = near.frequency[np.arange(len(decisive)), decisive]
+    speed = sample["speed"]
+    return {
+        "carrier_amplitude": out["carrier_amplitude"],
+        "stroke_amplitude": out["stroke_amplitude"],
+        "torque_amplitude": out["torque_amplitude"],
+        "dissipated_power": out["power_amplitude"],
+        "load_frequency": load_frequency,
+        "load_order": order_of_frequency(load_frequency, speed, cfg["bogie"]["wheel"]["radius"]),
+        "unsprung_mass": sample["unsprung_mass"],
+    }
+
+
+def _without_nominal(cfg, sample, c_points: int, d_points: int) -> dict[str, np.ndarray]:
+    """Variables where the line as configured has no equilibrium: NaN, and a status that says so."""
+    cases, wheels, peaks = len(sample["case"]), len(sample["wheel"]), cfg["study"]["peaks"]
+    absorber, count = cfg["bogie"]["absorber"], len(DESIGNS)
+    missing = (np.nan, np.nan)
+
+    def none(*shape: int) -> np.ndarray:
+        return np.full(shape, np.nan)
+
+    return {
+        "status": np.array(["no_equilibrium"] * count),
+        "map_nominal_factor": none(d_points, c_points),
+        "map_worst_factor": none(d_points, c_points),
+        **_design_values(cfg, [None, (absorber["c_T"], absorber["d_T"]), missing, missing]),
+        "counted": np.zeros(cases, bool),
+        "factor": none(count, cases),
+        "reference": none(cases),
+        "worst_factor": none(count),
+        "self_excited_cases": none(count),
+        "nominal_factor": none(count),
+        "rubber_end": np.array(RUBBER_ENDS),
+        "rubber_factor": none(count, len(RUBBER_ENDS)),
+        "tolerance": none(count, 2, 2),
+        "peak": np.array([peak["name"] for peak in peaks]),
+        "peak_frequency": none(cases, wheels, len(peaks)),
+        "peak_factor": none(count, cases, wheels, len(peaks)),
+        "growth_rate": none(count, cases, 2),
+        **{name: none(count, cases) for name in LOADS},
+        "unsprung_mass": sample["unsprung_mass"],
+    }

@@ -1,0 +1,129 @@
+"""The stage `tendency_maps`: evolution tendency over speed, curve radius and absorber."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from tramdva.bogie.conditions import State, as_configured, reached
+from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
+from tramdva.bogie.tram import absorber as absorber_of
+from tramdva.bogie.tram import run_through
+from tramdva.evolution.any_absorber import any_absorber
+from tramdva.evolution.tendency import evolution_tendency, linear_wear_response, wear_sensitivity
+from tramdva.stages.bogie_sections import quiet_bogie_line
+from tramdva.stages.wheels_out_of_round import wearing
+from tramdva.variables.tendency_maps import VARIABLES
+
+__all__ = ["VARIABLES", "compute"]
+
+
+def compute(
+    cfg: Mapping[str, Any],
+    contact_geometry: Mapping[str, np.ndarray],
+    bogie_linearisation: Sequence[Mapping[str, np.ndarray]],
+) -> dict[str, np.ndarray]:
+    """Evolution tendency of the linearised vehicle over speed, radius and absorber.
+
+    Parameters
+    ----------
+    cfg : sections of the bogie, ``wear``, ``out_of_roundness.wheels``, ``study``, ``numerics``
+    contact_geometry : variables of this file
+    bogie_linearisation : variables of these files: the values of the absorbers
+
+    Returns
+    -------
+    Variables of ``tendency_maps``.
+    """
+    study, numerics = cfg["study"], cfg["numerics"]
+    designs = {
+        str(linear["absorber"]): tuple(float(linear[name]) for name in ("m_T", "c_T", "d_T"))
+        for linear in bogie_linearisation
+    }
+    line = quiet_bogie_line(cfg, contact_geometry)
+    known = as_configured(line, run_through(line, numerics["curvature_steps"]))
+    frequency = np.linspace(
+        study["frequency"]["min"], study["frequency"]["max"], numerics["frequency_points"]
+    )
+    speed = np.linspace(study["speed"]["min"], study["speed"]["max"], numerics["speeds"])
+    radius = np.geomspace(study["radius"]["min"], study["radius"]["max"], numerics["radii"])
+    inertia, stiffness, damping = np.array([designs[name] for name in study["absorbers"]]).T
+    over_speed = _over(cfg, known, designs, "speed", speed, frequency)
+    over_radius = _over(cfg, known, designs, "radius", radius, frequency)
+    return {
+        "absorber": np.array(study["absorbers"]),
+        "m_T": inertia,
+        "c_T": stiffness,
+        "d_T": damping,
+        "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
+        "frequency": frequency,
+        "speed": speed,
+        "speed_tendency": over_speed["tendency"],
+        "speed_growth_rate": over_speed["growth_rate"],
+        "speed_status": over_speed["status"],
+        "radius": radius,
+        "radius_tendency": over_radius["tendency"],
+        "radius_growth_rate": over_radius["growth_rate"],
+        "radius_status": over_radius["status"],
+        **_over_absorbers(cfg, known, frequency),
+    }
+
+
+def _over(cfg, known: State, designs, name: str, values, frequency) -> dict[str, np.ndarray]:
+    """Tendency (absorber, wheel, value, f) over values of a field of the track.
+
+    From the line's own value upwards and downwards, each start from its neighbour.
+    """
+    absorbers, wheels = cfg["study"]["absorbers"], cfg["out_of_roundness"]["wheels"]
+    tendency = np.full((len(absorbers), len(wheels), values.size, frequency.size), np.nan)
+    growth = np.full((len(absorbers), values.size), np.nan)
+    status = np.full((len(absorbers), values.size), "not_converged", dtype="U20")
+    shares = values / getattr(known.line.track, name)
+    own = int(np.argmin(np.abs(shares - 1.0)))
+    for i, absorber in enumerate(absorbers):
+        design = absorber_of(known.line, *designs[absorber][1:])
+        for way in (range(own, values.size), range(own - 1, -1, -1)):
+            state = known
+            for k in way:
+                conditions = state.conditions._replace(**{name: float(shares[k])})
+                state = reached(state, conditions, design)
+                status[i, k] = state.equilibrium.status
+                if state.equilibrium.status != "converged":
+                    break
+                bogie = rough_bogie(state.system, state.equilibrium)
+                growth[i, k] = _growth_rate(bogie, cfg["study"]["design_band"])
+                worn = wear_sensitivity(bogie, state.system.contacts.law, wearing(cfg))
+                places, radius = state.system.contacts.places, state.line.bogie.wheel.radius
+                response = linear_wear_response(
+                    bogie, worn, frequency, places.speed, radius, wheels
+                )
+                tendency[i, :, k] = evolution_tendency(response[:, wearing(cfg).places].T)
+    return {"tendency": tendency, "growth_rate": growth, "status": status}
+
+
+def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
+    """Largest growth rate in 1/s of the oscillations in a band; NaN if there are none."""
+    value = bogie.eigenvalue
+    frequency = value.imag / (2.0 * np.pi)
+    inside = (frequency >= band["min"]) & (frequency <= band["max"])
+    return float(value.real[inside].max()) if inside.any() else np.nan
+
+
+def _over_absorbers(cfg, known: State, frequency: np.ndarray) -> dict[str, np.ndarray]:
+    """Largest tendency in the band of design with an absorber over that without."""
+    study, points = cfg["study"], cfg["numerics"]["map_points"]
+    d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
+    c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
+    attached = any_absorber(wearing(cfg), known.line, known.system, known.equilibrium, frequency)
+    without = attached.without()
+    near = (frequency >= study["design_band"]["min"]) & (frequency <= study["design_band"]["max"])
+    factors = np.empty((without.shape[1], points, points))
+    for i, d in enumerate(d_T):
+        for j, c in enumerate(c_T):
+            factors[:, i, j] = attached.tendency(c, d)[near].max(axis=0) / without[near].max(axis=0)
+    return {
+        "map_d_T": d_T,
+        "map_c_T": c_T,
+        "map_factor": factors,
+        "map_worst_factor": factors.max(axis=0),
+    }

@@ -1,0 +1,99 @@
+"""Compile all kernels into Numba's cache, so that the first run does not have to."""
+
+import numpy as np
+
+from tramdva.bifurcation.hopf import HopfPoint
+from tramdva.bifurcation.limit_cycle import LimitCycleCurve
+from tramdva.bifurcation.system import DynamicalSystem
+from tramdva.bogie import integration, wheel_forces
+from tramdva.contact import geometry, kalker, patch, profiles
+from tramdva.wear.chart import WearChart
+from tramdva.wear.passages import ContactHistory, passages
+from tramdva.wheelset import model
+
+# Only the types matter: the results are thrown away.
+_COUNT = len(model.WheelsetParameters._fields)
+_NUMBERS = model.WheelsetParameters(*np.linspace(1.0, 2.0, _COUNT).tolist())
+
+
+def compile_kernels() -> None:
+    """Call every compiled function once with each combination of types that the stages use."""
+    with np.errstate(all="ignore"):
+        _wheelset()
+        _collocation()
+        contacts = _contacts()
+        _wear(contacts.law)
+        _bogie(contacts)
+
+
+def _wheelset() -> None:
+    parameters = np.array(_NUMBERS)
+    model.slip_derivatives(_NUMBERS, 1.0, 1.0)
+    for n, mounted in ((4, False), (6, True)):
+        for dtype in (float, complex):
+            states = np.ones((1, n), dtype)
+            model.accelerations(states, parameters)
+            model.jacobian(states, parameters)
+        model.linearised(_NUMBERS, mounted)
+        try:
+            model.equilibrium(_NUMBERS, mounted)
+        except ArithmeticError:
+            continue
+
+
+def _collocation() -> None:
+    """One corrector step on an orbit of x'' - p x' + x = 0, near p = 0."""
+    turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
+    system = DynamicalSystem(
+        rhs=lambda states, p: states @ turn.T + p[0] * states,
+        jacobian=lambda states, p: np.tile(turn + p[0] * np.eye(2), (len(states), 1, 1)),
+        dimension=2,
+        parameter_names=("p",),
+    )
+    hopf = HopfPoint(np.zeros(2), np.array([1.0, 1.0j]), 1.0, np.zeros(1), 0.0, True)
+    curve = LimitCycleCurve(system, "p", max_iterations=1)
+    curve.correct(curve.predict(curve.start(hopf, 2, 4), 0.1))
+
+
+def _contacts() -> wheel_forces.Contacts:
+    """Four wheels, with tread and flange, on the coarsest tables and patches that there can be."""
+    zone, *_ = geometry.contact_tables(
+        profiles.tram_wheel(), profiles.grooved_rail(), 0.3, shift_range=(0.0, 1e-4),
+        roll_limit=1e-3, yaw_limit=1e-3, yaw_nodes=2,
+    )  # fmt: skip
+    places = wheel_forces.WheelPlaces(
+        np.ones(4), np.array([1, 1, 2, 2]), np.ones(4), 0.0, 0.0, 1.0, 1.0
+    )
+    law = patch.contact_law(0.3, 0.4, 0.1, cells_along=2, strips=2)
+    return wheel_forces.Contacts((zone, zone), law, places)
+
+
+def _wear(law: patch.ContactLaw) -> None:
+    grid, chart = law.grid, WearChart()
+    moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
+    passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)
+
+
+def _bogie(contacts: wheel_forces.Contacts) -> None:
+    """One step of a vehicle with a single mode."""
+    curvatures, local = np.zeros(3), np.zeros(40)
+    wheel_forces.contact_forces(contacts, curvatures, local)
+    wheel_forces.contact_jacobian(contacts, curvatures, local)
+    wheel_forces.radius_sensitivity(contacts, curvatures, local)
+    modal = integration.ModalContacts(
+        np.zeros((2, 40)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 40))
+    )
+    passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
+    zones = len(contacts.tables)
+    round_wheels = integration.Excitation(
+        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 40)), np.zeros((2, 24)),
+        np.zeros(2),
+    )  # fmt: skip
+    columns = np.array(integration.RECORDED)
+    integration.run(
+        modal, contacts, passage, round_wheels,
+        integration.step_table(np.array([-1.0 + 1.0j]), 1e-3), 1e-3, 1.0, 0, 0.0, np.zeros(2),
+        integration.workspace(contacts), np.empty((1, 40)),
+        np.empty((1, 4, zones, columns.size)), columns, 1,
+    )  # fmt: skip

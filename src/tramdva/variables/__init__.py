@@ -1,0 +1,1 @@
+"""One module per result file: names, dimensions, units and meanings of its variables."""

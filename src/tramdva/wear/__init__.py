@@ -1,0 +1,1 @@
+"""Wear of a wheel by the passage of its contact."""

@@ -1,0 +1,198 @@
+"""Wear of a wheel by the passages of its contact: cell by cell, at the angle of the wheel."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from tramdva.contact import kalker, traction_field
+from tramdva.contact.fastsim import PatchGrid
+from tramdva.contact.traction_field import TractionField
+from tramdva.wear.chart import CHART, REGIONS, WearChart, wear_coefficient, wear_region
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _slip(field, k, j):
+    return np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _changes(values, k, j, strips):
+    """Change of a field (along, strips) over a cell along and across the patch, in one cell."""
+    before, behind = max(k - 1, 0), min(k + 1, values.shape[0] - 1)
+    left, right = max(j - 1, 0), min(j + 1, strips - 1)
+    along = abs(values[behind, j] - values[before, j]) / (behind - before)
+    return along, abs(values[k, right] - values[k, left]) / (right - left)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def archard_depth(field, rolling_speed, chart, strip_depth):
+    """Wear depth of every strip for one passage of the patch.
+
+    Parameters
+    ----------
+    field : TractionField of the patch
+    rolling_speed : m/s
+    chart : from `WearChart.as_array`
+    strip_depth : (strips,) array, receives the depth in m
+
+    Returns
+    -------
+    worn_area : cross-section of removed material in m^2 (depth integrated across the patch;
+        times 2 pi R the volume of one revolution).
+    """
+    strip_depth[:] = 0.0
+    slip, strips = np.empty(field.area.shape), 0
+    for j in range(slip.shape[1]):
+        strips += field.area[0, j] > 0.0  # padding strips come last
+    for k in range(slip.shape[0]):
+        for j in range(slip.shape[1]):
+            slip[k, j] = _slip(field, k, j)
+    worn_area, speed = 0.0, abs(rolling_speed)
+    sharp = int(chart[11]) == CHART
+    pressure_change = slip_change = (0.0, 0.0)
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            if slip[k, j] == 0.0:
+                continue
+            pressure = field.pressure[k, j]
+            if sharp:
+                pressure_change = _changes(field.pressure, k, j, strips)
+                along, across = _changes(slip, k, j, strips)
+                slip_change = speed * along, speed * across
+            coefficient = wear_coefficient(
+                pressure, speed * slip[k, j], chart, pressure_change, slip_change
+            )
+            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart[0]
+            strip_depth[j] += depth
+            worn_area += depth * field.area[k, j] / field.length_x[k, j]
+    return worn_area
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def region_areas(field, rolling_speed, chart, areas):
+    """Area in m^2 of the patch in every region of the chart, and of adhesion.
+
+    `areas` is a (5,) array: the four REGIONS (cells that slide), then cells without slip.
+    """
+    for region in range(areas.size):
+        areas[region] = 0.0
+    for k in range(field.area.shape[0]):
+        for j in range(field.area.shape[1]):
+            slip = _slip(field, k, j)
+            region = 4
+            if slip > 0.0:
+                region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)
+            areas[region] += field.area[k, j]
+
+
+def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) -> dict[str, float]:
+    """Share of the patch area in each region, and `adhesion`; sums to one in contact."""
+    areas = np.zeros(5)
+    region_areas(field, rolling_speed, chart.as_array(), areas)
+    total = areas.sum()
+    names = (*REGIONS, "adhesion")
+    shares = areas / total if total > 0.0 else areas
+    return dict(zip(names, shares, strict=True))
+
+
+AREAS = (*REGIONS, "adhesion")
+
+
+class ContactHistory(NamedTuple):
+    """What wear needs of one contact, arrays (k,) over time in SI; zero normal force: apart."""
+
+    semi_axis_longitudinal: np.ndarray
+    semi_axis_lateral: np.ndarray
+    normal_force: np.ndarray
+    friction: np.ndarray
+    longitudinal_creepage: np.ndarray
+    lateral_creepage: np.ndarray
+    spin_creepage: np.ndarray
+
+
+class Passages(NamedTuple):
+    """Wear of the passages in a history.
+
+    area : (k,) m^2, cross-section worn away
+    shares : (k, 5) of the patch in the regions of the chart and in adhesion; zero when apart
+    """
+
+    area: np.ndarray
+    shares: np.ndarray
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, chart, out):
+    area, shares = out
+    depth = np.empty(grid.offset.size)
+    for i in range(area.size):
+        a, b, normal = history[0, i], history[1, i], history[2, i]
+        if not normal > 0.0:
+            continue
+        flexibility = kalker.flexibilities(kalker_table, a, b, shear_modulus)
+        traction_field.traction_field(
+            a, b, normal, history[3, i], history[4, i], history[5, i], history[6, i],
+            flexibility, grid, field,
+        )  # fmt: skip
+        area[i] = archard_depth(field, rolling_speed, chart, depth)
+        region_areas(field, rolling_speed, chart, shares[i])
+        shares[i] /= shares[i].sum()
+
+
+def passages(
+    history: ContactHistory,
+    kalker_table: np.ndarray,
+    shear_modulus: float,
+    grid: PatchGrid,
+    rolling_speed: float,
+    chart: WearChart,
+) -> Passages:
+    """Wear of each moment of a history, as if the patch were passed in that state.
+
+    Parameters
+    ----------
+    history : ContactHistory
+    kalker_table : of `kalker`; shear_modulus : Pa
+    grid : PatchGrid, cells of the patch
+    rolling_speed : m/s
+    chart : WearChart
+    """
+    values = np.array([np.asarray(column, float) for column in history])
+    count = values.shape[1]
+    out = np.zeros(count), np.zeros((count, len(AREAS)))
+    field = traction_field.empty_field(grid)
+    _passages(
+        values, kalker_table, shear_modulus, grid, field, float(rolling_speed),
+        chart.as_array(), out,
+    )  # fmt: skip
+    return Passages(*out)
+
+
+def wear_orders(area: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
+    """Orders 0 .. count - 1 of the worn cross-section around the wheel, mean of the revolutions.
+
+    Parameters
+    ----------
+    area : (k,) m^2 per passage, at equal steps of time over whole revolutions
+    angle : (k,) rad, material point in contact
+    count : orders
+
+    Returns
+    -------
+    (count,) complex, such that the cross-section is Re sum W_n exp(i n angle).
+
+    Notes
+    -----
+    In a time dt the patch takes area V dt, whatever material points are in it: where the contact
+    moves ahead it spreads this over a longer stretch. The integral of the cross-section times
+    exp(-i n angle) over the angle is therefore that of area exp(-i n angle) over time.
+    """
+    orders = 2.0 / area.size * (np.exp(-1j * np.outer(np.arange(count), angle)) @ area)
+    orders[0] *= 0.5
+    return orders
+
+
+def depth_around(orders: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Value at wheel angles (rad) of a function of which the orders 0, 1, 2, ... are given."""
+    return (np.exp(1j * np.outer(angle, np.arange(orders.size))) @ orders).real

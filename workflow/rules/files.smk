@@ -1,0 +1,69 @@
+"""Where the files of stages and figures are, and what the rules of all of them have in common."""
+
+from functools import partial
+
+from tramdva.configuration.uses import used_values
+from tramdva.running.code_hash import code_hash
+
+SCRIPTS, DRAWINGS = ROOT / "workflow/scripts", ROOT / "paper_figures"
+values = partial(used_values, configuration)
+
+ABSORBERS = {
+    name: line.study.evolution_tendency.absorbers
+    for name, line in configuration.lines.items()
+}
+ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
+PARTS = range(configuration.run.numerics.robustness_sample.parts)
+# Files of the stages of JOBS.
+PATTERNS = {
+    "bogie_linearisation": "results/{line}/bogie_linearisation/{absorber}.nc",
+    "bogie_simulation": "results/{line}/bogie_simulation/{absorber}/order_{order}.nc",
+    "wear": "results/{line}/wear/{absorber}/order_{order}.nc",
+    "robustness_sample": "results/{line}/robustness_sample/part_{part}.nc",
+}
+
+
+wildcard_constraints:
+    line="|".join(LINES),
+    absorber="none|paper|tuned",
+    order="[0-9]+",
+    part="[0-9]+",
+
+
+def files_of(stage, line):
+    """Name the file of a stage; all of its files, as a list, where it is made by many jobs."""
+    if stage in STAGES:
+        return f"results/{line}/{stage}.nc"
+    return expand(
+        PATTERNS[stage], line=line, absorber=ABSORBERS[line], order=ORDERS, part=PARTS
+    )
+
+
+def inputs(stages):
+    """Name the files that a rule reads by the stages that make them."""
+    return {
+        stage: partial(lambda w, stage: files_of(stage, w.line), stage=stage)
+        for stage in stages
+    }
+
+
+def pictures_of(figure, line):
+    """Name the files of a figure."""
+    return [
+        f"paper_figures/{line}/{figure}.{kind}" for kind in FIGURES[figure][-1].values()
+    ]
+
+
+def outputs(figure):
+    """Name the files of a figure by their kinds; the last one is shown in the report."""
+    _, chapter, name, kinds = FIGURES[figure]
+    files = {
+        kind: f"paper_figures/{{line}}/{figure}.{suffix}"
+        for kind, suffix in kinds.items()
+    }
+    shown = list(files)[-1]
+    caption = ROOT / f"workflow/report/{figure}.rst"
+    labels = {"line": "{line}", "shows": name}
+    return files | {
+        shown: report(files[shown], category=chapter, caption=caption, labels=labels)
+    }
