@@ -14,6 +14,7 @@ import json
 import mimetypes
 import platform
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -312,3 +313,11 @@ def _time(seconds: float) -> str:
 
 def _refer(names: Iterable[str]) -> list[dict[str, str]]:
     return [{"@id": name} for name in dict.fromkeys(names)]
+
+
+if __name__ == "__main__":
+    try:
+        described = write(sys.argv[1:])
+    except IncompleteRunError as error:
+        sys.exit("\n".join(f"tramdva: no crate: {line}" for line in str(error).splitlines()))
+    print(f"tramdva: {NAME} describes {len(described)} files of the run and how they were made")

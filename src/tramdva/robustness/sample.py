@@ -64,6 +64,7 @@ def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def port_variables(found: Ports) -> dict[str, np.ndarray]:
+    """Ports as the variables of ``robustness_sample``; `stored_ports` is the way back."""
     return {
         **_parts("wear_by_wave", found.output_by_wave),
         **_parts("wear_by_force", found.output_by_force),
