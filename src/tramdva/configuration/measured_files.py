@@ -96,7 +96,7 @@ def check_or_exit(files: Mapping[str, Mapping[str, MeasuredFile]]) -> None:
 def _problems(what: str, path: str) -> Iterator[str]:
     # NumPy is loaded only by runs that have such files.
     from tramdva.contact.measured_profile import read_profile
-    from tramdva.out_of_roundness import read_measurement
+    from tramdva.evolution.out_of_roundness import read_measurement
 
     try:
         if what == "out_of_roundness":
