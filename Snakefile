@@ -168,6 +168,7 @@ report: "workflow/report/workflow.rst"
 
 onstart:
     supervision.begin_run("results", "paper_figures", "logs")
+    job.stop_polling(workflow)
     compile_kernels_once()
     print(
         f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"

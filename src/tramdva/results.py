@@ -33,44 +33,55 @@ COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
 
 
 def make(snakemake: Any, stage: ModuleType) -> None:
-    """Make the result file of a job: the one place where a stage meets Snakemake.
+    """Make the result files of a job: the one place where a stage meets Snakemake.
 
     Parameters
     ----------
     snakemake : Snakemake's object of the job
-        Its inputs are files of other stages, by the names of these; one or several each.
+        Its inputs are files of other stages, by the names of these; one or several each. A job of
+        several orders says them in ``params.orders``; its outputs are theirs, and so is each input
+        of several files.
     stage : module
         `compute` takes the values of the configuration (``cfg``), the variables of the inputs by
         name and, where it names them, wildcards of the job and ``file_of``, which finds a file that
         the configuration names; it returns the variables that `VARIABLES` describes.
     """
     with job.logging_to(snakemake.log[0]):
-        cfg = snakemake.params.cfg
-        given = {name: _read_all(paths) for name, paths in snakemake.input.items() if paths}
-        values = stage.compute(cfg, **given, **_asked_for(stage, snakemake))
-        save(
-            snakemake.output[0], stage.VARIABLES, values,
-            parameters=cfg, code=snakemake.params.code,
-        )  # fmt: skip
+        orders = snakemake.params.get("orders", [None])
+        shared, own = _inputs(snakemake, batch="orders" in snakemake.params.keys())
+        for place, (order, output) in enumerate(zip(orders, snakemake.output, strict=True)):
+            of_order = {name: read(paths[place]) for name, paths in own.items()}
+            asked = _asked_for(stage, snakemake, order)
+            values = stage.compute(snakemake.params.cfg, **shared, **of_order, **asked)
+            save(
+                output, stage.VARIABLES, values,
+                parameters=snakemake.params.cfg, code=snakemake.params.code,
+            )  # fmt: skip
+
+
+def _inputs(snakemake: Any, batch: bool) -> tuple[dict[str, Any], dict[str, Sequence[str]]]:
+    """Variables that all files of the job are made from, and the files that each has for itself."""
+    given = {name: paths for name, paths in snakemake.input.items() if paths}
+    own = {name: paths for name, paths in given.items() if batch and not isinstance(paths, str)}
+    shared = {name: _read_all(paths) for name, paths in given.items() if name not in own}
+    return shared, own
 
 
 def _read_all(paths: str | Sequence[str]) -> Any:
     return read(paths) if isinstance(paths, str) else [read(path) for path in paths]
 
 
-def _asked_for(stage: ModuleType, snakemake: Any) -> dict[str, Any]:
+def _asked_for(stage: ModuleType, snakemake: Any, order: int | None) -> dict[str, Any]:
     """What else the stage asks for by name: wildcards, numbers as such, and ``file_of``."""
-    wildcards = {
+    offered: dict[str, Any] = {
         name: int(value) if value.isdecimal() else value
         for name, value in snakemake.wildcards.items()
     }
-    find = partial(job.configuration_file, scriptdir=snakemake.scriptdir)
-    offered = {**wildcards, "file_of": find}
-    return {
-        name: offered[name]
-        for name in inspect.signature(stage.compute).parameters
-        if name in offered
-    }
+    if order is not None:
+        offered["order"] = order
+    offered["file_of"] = partial(job.configuration_file, scriptdir=snakemake.scriptdir)
+    wanted = inspect.signature(stage.compute).parameters
+    return {name: offered[name] for name in wanted if name in offered}
 
 
 def save(

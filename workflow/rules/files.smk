@@ -1,5 +1,6 @@
 """Where the files of stages and figures are, and what the rules of all of them have in common."""
 
+import itertools
 from functools import partial
 
 from tramdva.configuration.uses import used_values
@@ -13,6 +14,16 @@ ABSORBERS = {
     for name, line in configuration.lines.items()
 }
 ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
+# Orders of a job stay together whatever the first and the last order of the run.
+GROUP = (
+    configuration.run.numerics.orders_per_job
+    * configuration.run.numerics.evolution_tendency.orders.step
+)
+BATCHES = [
+    list(batch)
+    for _, batch in itertools.groupby(ORDERS, key=lambda order: order // GROUP)
+]
+OTHER_ORDERS = rf"(?!({'|'.join(map(str, ORDERS))})\b)[0-9]+"
 PARTS = range(configuration.run.numerics.robustness_sample.parts)
 # Files of the stages of JOBS.
 PATTERNS = {
@@ -37,6 +48,16 @@ def files_of(stage, line):
     return expand(
         PATTERNS[stage], line=line, absorber=ABSORBERS[line], order=ORDERS, part=PARTS
     )
+
+
+def orders_of(stage, batch):
+    """Name the files of some orders of a stage."""
+    return [PATTERNS[stage].replace("{order}", str(order)) for order in batch]
+
+
+def span(batch):
+    """Name a batch of orders by its first and last one."""
+    return f"orders_{batch[0]}_{batch[-1]}"
 
 
 def inputs(stages):

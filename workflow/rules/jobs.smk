@@ -24,6 +24,54 @@ rule bogie_linearisation:
         "../scripts/bogie_linearisation.py"
 
 
+# Orders are made in batches: the start of a job takes longer than an order. An order that is none of
+# the run's is still made alone when it is asked for by the name of its file.
+for batch in BATCHES:
+
+    rule:
+        name:
+            f"bogie_simulation_{span(batch)}"
+        input:
+            contact_geometry="results/{line}/contact_geometry.nc",
+            bogie_linearisation=PATTERNS["bogie_linearisation"],
+        output:
+            orders_of("bogie_simulation", batch),
+        log:
+            f"logs/{{line}}/bogie_simulation/{{absorber}}/{span(batch)}.log",
+        benchmark:
+            f"logs/{{line}}/bogie_simulation/{{absorber}}/{span(batch)}.tsv"
+        threads: 1
+        params:
+            orders=batch,
+            cfg=lambda w: values(w.line, "bogie_simulation"),
+            code=code_hash(SCRIPTS / "bogie_simulation.py"),
+        message:
+            f"{{wildcards.line}}: {span(batch)}, absorber {{wildcards.absorber}}"
+        script:
+            "../scripts/bogie_simulation.py"
+
+    rule:
+        name:
+            f"wear_{span(batch)}"
+        input:
+            bogie_simulation=orders_of("bogie_simulation", batch),
+        output:
+            orders_of("wear", batch),
+        log:
+            f"logs/{{line}}/wear/{{absorber}}/{span(batch)}.log",
+        benchmark:
+            f"logs/{{line}}/wear/{{absorber}}/{span(batch)}.tsv"
+        threads: 1
+        params:
+            orders=batch,
+            cfg=lambda w: values(w.line, "wear"),
+            code=code_hash(SCRIPTS / "wear.py"),
+        message:
+            f"{{wildcards.line}}: wear by {span(batch)}, absorber {{wildcards.absorber}}"
+        script:
+            "../scripts/wear.py"
+
+
 rule bogie_simulation:
     input:
         contact_geometry="results/{line}/contact_geometry.nc",
@@ -34,6 +82,8 @@ rule bogie_simulation:
         "logs/{line}/bogie_simulation/{absorber}/order_{order}.log",
     benchmark:
         "logs/{line}/bogie_simulation/{absorber}/order_{order}.tsv"
+    wildcard_constraints:
+        order=OTHER_ORDERS,
     threads: 1
     params:
         cfg=lambda w: values(w.line, "bogie_simulation"),
@@ -53,6 +103,8 @@ rule wear:
         "logs/{line}/wear/{absorber}/order_{order}.log",
     benchmark:
         "logs/{line}/wear/{absorber}/order_{order}.tsv"
+    wildcard_constraints:
+        order=OTHER_ORDERS,
     threads: 1
     params:
         cfg=lambda w: values(w.line, "wear"),

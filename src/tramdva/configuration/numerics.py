@@ -203,6 +203,7 @@ class RobustTuningNumerics(Section):
 class Numerics(Section):
     """Grids, orders and tolerances."""
 
+    orders_per_job: Whole = quantity("orders of the wheels that a job computes", "-", 1, 400)
     stability_map: StabilityMapNumerics
     hopf_points: HopfPointsNumerics
     limit_cycles: LimitCyclesNumerics

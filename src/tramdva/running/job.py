@@ -51,6 +51,24 @@ def logging_to(path: str | Path) -> Iterator[None]:
             sys.stderr.flush()
 
 
+def stop_polling(workflow: object) -> None:
+    """Let Snakemake's scheduler wait for its jobs instead of looking every second.
+
+    With its limit of jobs per second each look of the scheduler at jobs that are ready starts a
+    timer whose end is the next look, and each costs more the more jobs there are. Where jobs run
+    on this machine the number of cores limits them. The attribute is none of Snakemake's promises:
+    where it is missing, nothing happens.
+
+    Parameters
+    ----------
+    workflow : Snakemake's object of the run
+    """
+    scheduler = getattr(workflow, "scheduler", None)
+    is_local = getattr(workflow, "local_exec", False)
+    if is_local and hasattr(scheduler, "job_rate_limiter"):
+        scheduler.job_rate_limiter = None
+
+
 def configuration_file(name: str, scriptdir: str) -> Path:
     """Find a file that a line names, in the folder of the run's configuration.
 
@@ -70,7 +88,8 @@ def configuration_file(name: str, scriptdir: str) -> Path:
         In `config` of the working directory if there is a configuration, else beside the code.
     """
     own = Path("config")
-    folder = own if (own / "config.yaml").is_file() else Path(scriptdir).parents[1] / "config"
+    code = Path(scriptdir).resolve().parents[1]
+    folder = own if (own / "config.yaml").is_file() else code / "config"
     return folder / name
 
 
