@@ -49,7 +49,7 @@ def here(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture(scope="module")
 def described(checkout: Path) -> list[dict]:
     """Entities of the crate of the run, made by the command."""
-    ended = command(checkout, "tramdva.crate")
+    ended = command(checkout, "tramdva.record.crate")
     assert ended.returncode == 0, ended.stderr
     assert re.search(r"describes \d+ files of the run", ended.stdout)
     return json.loads((checkout / crate.NAME).read_text())["@graph"]
@@ -248,7 +248,7 @@ def test_stale_figure_is_reported(here: Path) -> None:
 
 def test_missing_results_are_told_in_a_line(here: Path) -> None:
     with replaced(here / FIGURE, None):
-        ended = command(here, "tramdva.crate")
+        ended = command(here, "tramdva.record.crate")
 
     assert ended.returncode == 1
     assert re.fullmatch(
@@ -271,7 +271,7 @@ def test_results_beside_other_sources_are_refused() -> None:
 def test_archive_runs_elsewhere_with_nothing_to_be_done(
     here: Path, tmp_path: Path, snakemake
 ) -> None:
-    ended = command(here, "tramdva.archive")
+    ended = command(here, "tramdva.record.archive")
     assert ended.returncode == 0, ended.stderr
     path = here / ended.stdout.split()[1]
     subprocess.run(["tar", "-xzf", path, "-C", tmp_path], check=True)
@@ -280,9 +280,9 @@ def test_archive_runs_elsewhere_with_nothing_to_be_done(
 
     ended = snakemake(folder, *QUICK, code=folder)
     assert "Nothing to be done" in ended.stdout + ended.stderr
-    for name in ("src/tramdva/crate.py", "requirements.lock", crate.NAME, FIGURE):
+    for name in ("src/tramdva/record/crate.py", "requirements.lock", crate.NAME, FIGURE):
         assert (folder / name).read_bytes() == (here / name).read_bytes()
-    assert command(folder, "tramdva.crate").returncode == 0
+    assert command(folder, "tramdva.record.crate").returncode == 0
 
 
 def test_same_files_give_the_same_archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -41,7 +41,7 @@ def write(root: Path, path: Path = PATH, stage: str = "hopf_points", **changes) 
     cfg = used_values(load(root / "config"), "paper", stage) if known else {}
     code = code_hash(root / f"workflow/scripts/{stage}.py")
     stamps = {"parameters": cfg, "code": code} | changes
-    results.save(path, stage, values_of(stage), **stamps)
+    results.save(path, STAGES[stage], values_of(stage), **stamps)
 
 
 def record(path: Path) -> None:

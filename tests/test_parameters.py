@@ -87,7 +87,7 @@ def test_numbers_are_written_short(value: float, text: str) -> None:
 
 
 def test_generated_files_are_current(root: Path) -> None:
-    """Rewrite them by `python -m tramdva.schema config`."""
+    """Rewrite them by `python -m tramdva.configuration.reference config`."""
     readme = (root / "config/README.md").read_text(encoding="utf-8")
 
     assert json.loads((root / "config/schema.json").read_text()) == reference.json_schema()

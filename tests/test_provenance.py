@@ -15,12 +15,22 @@ from tramdva.running.numba_cache import use_numba_cache
 
 SOURCES = {
     "__init__.py": '"""Nomenclature."""\n',
-    "results.py": "from tramdva.registry import TABLES\n",
-    "registry.py": "from tramdva import wheel_variables\nTABLES = [wheel_variables.STAGES]\n",
-    "wheel_variables.py": "KINDS = 1\nSTAGES: dict = {'wear': 1, 'force': 2}\n",
-    "job.py": "import logging\n",
+    "results.py": (
+        "import importlib\nfrom tramdva.variables import kinds\n"
+        "def read():\n    return importlib.import_module('tramdva.variables.registry')\n"
+    ),
+    "variables/__init__.py": '"""Variables."""\n',
+    "variables/kinds.py": "KINDS = 1\n",
+    "variables/registry.py": "from tramdva.variables import force, wear\nSTAGES = [force, wear]\n",
+    "variables/wear.py": "from tramdva.variables import kinds\nVARIABLES = 1\n",
+    "variables/force.py": "VARIABLES = 2\n",
+    "running/__init__.py": '"""Running."""\n',
+    "running/job.py": "import logging\n",
     "force.py": '"""Force."""\n\n\ndef force(w):\n    """Return it."""\n    return 2 * w  # N\n',
-    "wear.py": "import tramdva.contact.hertz as hertz\nfrom tramdva import force\n",
+    "wear.py": (
+        "import tramdva.contact.hertz as hertz\nfrom tramdva import force\n"
+        "from tramdva.variables.wear import VARIABLES\n"
+    ),
     "alone.py": "x = 1\n",
     "contact/__init__.py": '"""Contact."""\n',
     "contact/hertz.py": (
@@ -37,7 +47,9 @@ def package(tmp_path: Path) -> Path:
         path = tmp_path / "tramdva" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    (tmp_path / "wear.py").write_text("from tramdva import job, results, wear\n")
+    (tmp_path / "wear.py").write_text(
+        "from tramdva import results, wear\nfrom tramdva.running import job\n"
+    )
     return tmp_path / "tramdva"
 
 
@@ -52,8 +64,8 @@ def hash_after(package: Path, name: str, text: str) -> str:
         "../wear.py",
         "__init__.py",
         "results.py",
-        "registry.py",
-        "wheel_variables.py",
+        "variables/kinds.py",
+        "variables/wear.py",
         "force.py",
         "wear.py",
         "contact/__init__.py",
@@ -68,7 +80,7 @@ def test_edit_of_reached_code_counts(package: Path, name: str) -> None:
     assert hash_after(package, name, f"{text}edited = 1\n") != before
 
 
-@pytest.mark.parametrize("name", ["alone.py", "contact/fastsim.py", "job.py"])
+@pytest.mark.parametrize("name", ["alone.py", "contact/fastsim.py", "running/job.py"])
 def test_edit_of_other_code_does_not_count(package: Path, name: str) -> None:
     before = code_hash(package.parent / "wear.py", package=package)
     text = (package / name).read_text()
@@ -90,14 +102,11 @@ def test_comments_docstrings_and_format_do_not_count(package: Path, text: str) -
     assert hash_after(package, "force.py", text) == before
 
 
-def test_only_the_own_entry_of_the_registry_counts(package: Path) -> None:
+@pytest.mark.parametrize("name", ["variables/force.py", "variables/registry.py"])
+def test_variables_of_other_stages_do_not_count(package: Path, name: str) -> None:
     before = code_hash(package.parent / "wear.py", package=package)
-    head = "KINDS = 1\nSTAGES: dict = "
 
-    same, other = "{'wear': 1, 'force': 3, 'x': 4}\n", "{'wear': 2, 'force': 2}\n"
-
-    assert hash_after(package, "wheel_variables.py", head + same) == before
-    assert hash_after(package, "wheel_variables.py", head + other) != before
+    assert hash_after(package, name, "VARIABLES, STAGES = 3, [4]\n") == before
 
 
 def test_dates_and_place_do_not_count(package: Path, tmp_path: Path) -> None:

@@ -38,7 +38,9 @@ def leave_lock() -> None:
 
 def enter_elsewhere() -> subprocess.Popen:
     """Another process that works in the folder until its input ends."""
-    code = "from tramdva import supervision as s; print(s.enter_folder(), flush=True); input()"
+    code = (
+        "from tramdva.running import supervision as s; print(s.enter_folder(), flush=True); input()"
+    )
     other = subprocess.Popen(
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
@@ -151,7 +153,7 @@ JOB = """
 import os, subprocess, sys
 child = '''
 import os, time
-from tramdva import job
+from tramdva.running import job
 with job.logging_to("job.log"):
     open("started", "w").close()
     time.sleep(60)
@@ -180,7 +182,7 @@ def test_job_whose_run_is_already_over_does_not_begin() -> None:
     over = subprocess.Popen(["true"])
     over.wait()
     ran = subprocess.run(
-        [sys.executable, "-c", "from tramdva import supervision as s; s.end_with_run()"],
+        [sys.executable, "-c", "from tramdva.running import supervision as s; s.end_with_run()"],
         env=os.environ | {supervision.PROCESS_VARIABLE: str(over.pid)},
         capture_output=True,
         text=True,

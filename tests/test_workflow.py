@@ -731,7 +731,7 @@ def test_failing_job_says_one_line_and_logs_the_traceback(
 ) -> None:
     (tmp_path / "Snakefile").write_text(BROKEN)
     (tmp_path / "broken.py").write_text(
-        "import logging, sys, os, warnings\nfrom tramdva import job\n"
+        "import logging, sys, os, warnings\nfrom tramdva.running import job\n"
         "with job.logging_to(snakemake.log[0]):\n"
         "    print('printed'); logging.info('logged'); warnings.warn('warned')\n"
         "    os.system('echo child'); print('error', file=sys.stderr)\n"

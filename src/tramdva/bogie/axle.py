@@ -123,7 +123,7 @@ def assemble_beam(position: np.ndarray, elements: list[BeamElement]) -> Beam:
 
 
 def stepped_beam(axle, elements_per_section: int) -> Beam:
-    """Beam of an axle bridge (`bogie_parameters.AxleBridge`): outer, middle, outer section."""
+    """Beam of an axle bridge (`bogie.parameters.AxleBridge`): outer, middle, outer section."""
     ends = (-axle.half_length, -axle.middle_half_length, axle.middle_half_length, axle.half_length)
     nodes, elements = [ends[0]], []
     for left, right, section in zip(
@@ -218,7 +218,7 @@ def flexible_axle(bogie, cutoff_frequency: float, elements_per_section: int) -> 
 
     Parameters
     ----------
-    bogie : bogie_parameters.Bogie
+    bogie : bogie.parameters.Bogie
     cutoff_frequency : Hz, elastic modes of the free axle bridge up to here are kept
     elements_per_section : beam elements in each of the three sections
 

@@ -113,7 +113,7 @@ def reached(known: State, conditions: Conditions, design=None, halvings: int = 4
     ----------
     known : State, where the way begins
     conditions : wanted
-    design : bogie_parameters.BogieAbsorber or None
+    design : bogie.parameters.BogieAbsorber or None
     halvings : of the way, at most
     """
     state = _at(known, conditions, design)

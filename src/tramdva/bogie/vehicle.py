@@ -137,11 +137,11 @@ def build_vehicle(
 
     Parameters
     ----------
-    bogie : bogie_parameters.Bogie
+    bogie : bogie.parameters.Bogie
     speed : m/s
     cutoff_frequency : Hz, of the axle's elastic modes
     elements_per_section : finite elements per section of the axle bridge
-    absorber : bogie_parameters.BogieAbsorber or None for the bogie without absorbers
+    absorber : bogie.parameters.BogieAbsorber or None for the bogie without absorbers
     """
     axle = flexible_axle(bogie, cutoff_frequency, elements_per_section)
     layout = _Layout(axle, 0 if absorber is None else 4)
@@ -314,7 +314,7 @@ def with_absorber_values(vehicle: Vehicle, before, c_T: float, d_T: float) -> Ve
 
     Parameters
     ----------
-    vehicle : Vehicle built with the absorber `before` (bogie_parameters.BogieAbsorber)
+    vehicle : Vehicle built with the absorber `before` (bogie.parameters.BogieAbsorber)
     c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
     """
     parts = {key: part for key, part in vehicle.strain.items() if key[0] == "absorber"}

@@ -12,7 +12,7 @@ SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
 
 
 def parametric_wheel(wheel) -> profiles.Profile:
-    """Wheel profile of the parameters (`bogie_parameters.WheelProfile`)."""
+    """Wheel profile of the parameters (`contact.parameters.WheelProfile`)."""
     return profiles.tram_wheel(
         wheel.flange_root_radius,
         wheel.flange_angle,
@@ -23,7 +23,7 @@ def parametric_wheel(wheel) -> profiles.Profile:
 
 
 def parametric_rail(rail) -> profiles.Profile:
-    """Rail profile of the parameters (`bogie_parameters.RailProfile`)."""
+    """Rail profile of the parameters (`contact.parameters.RailProfile`)."""
     return profiles.grooved_rail(
         rail.crown_radius,
         rail.corner_radius,
