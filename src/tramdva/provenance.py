@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import ast
 import functools
 import hashlib
 import os
-import re
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from importlib import metadata
 from pathlib import Path
 from typing import NamedTuple
 
+from tramdva.parsed_code import RESULT_TABLE, ParsedCode, parsed, use_store
+
 PACKAGE = Path(__file__).parent
-RESULT_TABLE = "_variables"  # end of the names of modules of which only the stage's entry counts
 WITHOUT_EFFECT = frozenset(
     {"tramdva.job", "tramdva.supervision"}
 )  # modules that cannot change a result
-COMPILED = re.compile(rb"^ *@.*jit\b", re.MULTILINE)  # decorators of Numba
 UNUSED_AFTER = 30 * 86400  # seconds after which a folder of compiled code is removed
 
 
@@ -28,7 +27,8 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     """Hash the code that a script reaches.
 
     Counted are the syntax trees, without docstrings, of the script and of each module of tramdva
-    that it imports, directly or through others. Comments, formatting and dates do not matter.
+    that it imports, directly or through others. Comments, formatting, dates and the version of
+    Python do not matter.
 
     Parameters
     ----------
@@ -45,10 +45,11 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
         20 hexadecimal digits.
     """
     script = Path(script)
-    digest = hashlib.sha256(_tree_hash(script))
-    for name in sorted(reached_modules(script, package)):
+    own = _read(script)
+    digest = hashlib.sha256(_tree_hash(own))
+    for name, module in sorted(_reached(own, package).items()):
         stage = script.stem if name.endswith(RESULT_TABLE) else ""
-        digest.update(name.encode() + _tree_hash(_file(name, package), stage))
+        digest.update(name.encode() + _tree_hash(module, stage))
     for path in data:
         digest.update(Path(path).read_bytes())
     return digest.hexdigest()[:20]
@@ -74,8 +75,10 @@ def compile_kernels_once(package: Path = PACKAGE) -> None:
     A kernel that was just compiled and the same kernel out of the cache can differ in the last
     bit: each is optimised with other functions in sight. So all jobs take theirs from the cache.
     """
-    # Numba keeps what it compiled by the place and the date of the sources.
+    # Numba keeps what it compiled by its own version, that of Python, and the place and the date
+    # of the sources.
     places = "".join(f"{path} {path.stat().st_mtime_ns};" for path in _compiled_files(package))
+    places += f"{sys.version_info[:2]} {metadata.version('numba')}"
     name = f"complete-{hashlib.sha256(places.encode()).hexdigest()[:20]}"
     done = Path(os.environ["NUMBA_CACHE_DIR"]) / name
     if done.is_file():
@@ -104,18 +107,20 @@ def _numba_cache_folder(package: Path) -> Path:
 
 def _compiled_code_hash(package: Path) -> str:
     """Hash the modules that compile functions and everything that they import."""
-    files = set(_compiled_files(package))
-    for path in tuple(files):
-        files |= {_file(name, package) for name in reached_modules(path, package)}
+    modules = {}
+    for path in _compiled_files(package):
+        own = _read(path)
+        found = (own, *_reached(own, package).values())
+        modules |= {os.path.relpath(module.path, package): module for module in found}
     digest = hashlib.sha256()
-    for path in sorted(files):
-        digest.update(str(path.relative_to(package)).encode() + _tree_hash(path))
+    for place, module in sorted(modules.items()):
+        digest.update(place.encode() + _tree_hash(module))
     return digest.hexdigest()[:20]
 
 
 def _compiled_files(package: Path) -> list[Path]:
     """Name the modules that compile functions."""
-    return [path for path in sorted(package.rglob("*.py")) if COMPILED.search(path.read_bytes())]
+    return [path for path in sorted(package.rglob("*.py")) if _read(path).code.compiles]
 
 
 def _cache_roots() -> Iterator[Path]:
@@ -140,100 +145,63 @@ def _remove_unused(current: Path) -> None:
 
 def reached_modules(script: Path, package: Path = PACKAGE) -> set[str]:
     """Name all modules of tramdva that a script imports, directly or through others."""
-    reached: set[str] = set()
-    waiting = list(_imported(script, package))
+    return set(_reached(_read(script), package))
+
+
+class _Module(NamedTuple):
+    """A file of code and what it says."""
+
+    path: str
+    code: ParsedCode
+
+
+def _reached(own: _Module, package: Path) -> dict[str, _Module]:
+    """Return all modules that a file imports, directly or through others."""
+    met: dict[str, _Module | None] = {}  # all names, which need not be modules
+    reached: dict[str, _Module] = {}
+    waiting = list(_imported(own, package, met))
     while waiting:
         name = waiting.pop()
         if name not in reached and name not in WITHOUT_EFFECT:
-            reached.add(name)
-            waiting += _imported(_file(name, package), package)
+            reached[name] = met[name]
+            waiting += _imported(met[name], package, met)
     return reached
 
 
-def _imported(path: Path, package: Path) -> Iterator[str]:
-    for name in _absolute_imports(path):
+def _imported(own: _Module, package: Path, met: dict[str, _Module | None]) -> Iterator[str]:
+    for name in own.code.imports:
         parts = name.split(".")
         modules = [".".join(parts[:end]) for end in range(1, len(parts) + 1)]
-        files = [module for module in modules if _file(module, package).is_file()]
-        if len(files) < min(2, len(parts)):
-            raise ValueError(f"{path}: there is no module {name}")
-        yield from files
+        for module in modules:
+            if module not in met:
+                path = _file(module, package)
+                met[module] = _read(path) if path else None
+        found = [module for module in modules if met[module]]
+        if len(found) < min(2, len(parts)):
+            raise ValueError(f"{own.path}: there is no module {name}")
+        yield from found
 
 
-def _file(module: str, package: Path) -> Path:
-    path = package.joinpath(*module.split(".")[1:])
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+def _file(module: str, package: Path) -> str:
+    """Find the file of a module; nothing where there is none."""
+    place = os.path.join(package, *module.split(".")[1:])  # noqa: PTH118 - a thousand times a start
+    candidates = (f"{place}/__init__.py", f"{place}.py")
+    return next(filter(os.path.isfile, candidates), "")
 
 
-def _absolute_imports(path: Path) -> tuple[str, ...]:
-    return _parsed_now(path).imports
-
-
-def _tree_hash(path: Path, stage: str = "") -> bytes:
+def _tree_hash(module: _Module, stage: str = "") -> bytes:
     """Hash a file; of a table of result variables, with a stage, only the entry of this stage."""
-    parsed = _parsed_now(path)
-    entries = [parsed.entries.get(stage, b"")] if stage else parsed.entries.values()
-    return b"".join([parsed.rest, *entries])
+    entries = module.code.entries
+    counted = [entries.get(stage, "")] if stage else entries.values()
+    return "".join([module.code.rest, *counted]).encode()
 
 
-class _Parsed(NamedTuple):
-    """Modules of tramdva that a file imports; hashes of its syntax tree.
-
-    entries : of a table of result variables, by stage; rest : of everything else
-    """
-
-    imports: tuple[str, ...]
-    rest: bytes
-    entries: dict[str, bytes]
-
-
-def _parsed_now(path: Path) -> _Parsed:
-    status = path.stat()
-    return _parsed(path, status.st_mtime_ns, status.st_size)
+def _read(path: str | Path) -> _Module:
+    _use_store()
+    return _Module(os.fspath(path), parsed(path))
 
 
 @functools.cache
-def _parsed(path: Path, mtime_ns: int, size: int) -> _Parsed:
-    tree = ast.parse(path.read_bytes(), filename=str(path))
-    imports: list[str] = []
-    _drop_docstring(tree)
-    for node in _statements(tree):
-        _drop_docstring(node)
-        if isinstance(node, ast.Import):
-            imports += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                raise ValueError(f"{path}: line {node.lineno}: relative imports are not followed")
-            imports += [f"{node.module}.{alias.name}" for alias in node.names]
-    entries = _taken_entries(tree) if path.stem.endswith(RESULT_TABLE) else {}
-    own = tuple(name for name in imports if name.split(".")[0] == "tramdva")
-    return _Parsed(own, _digest(tree), {key: _digest(value) for key, value in entries.items()})
-
-
-def _digest(tree: ast.AST) -> bytes:
-    return hashlib.sha256(ast.dump(tree).encode()).digest()
-
-
-def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield all statements below a node; expressions, which are far more, are passed over."""
-    for block in ("body", "orelse", "handlers", "finalbody", "cases"):
-        for statement in getattr(node, block, ()):
-            yield statement
-            yield from _statements(statement)
-
-
-def _drop_docstring(node: ast.AST) -> None:
-    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
-        node.body = node.body[1:]
-
-
-def _taken_entries(tree: ast.Module) -> dict[str, ast.expr]:
-    """Take the entries out of the table STAGES of result variables."""
-    taken: dict[str, ast.expr] = {}
-    for node in tree.body:
-        if isinstance(node, ast.AnnAssign) and getattr(node.target, "id", "") == "STAGES":
-            table = node.value
-            taken |= {key.value: value for key, value in zip(table.keys, table.values, strict=True)}
-            table.keys, table.values = [], []
-    return taken
+def _use_store() -> None:
+    """Parse nothing that another process has parsed."""
+    use_store(list(_cache_roots()))
