@@ -16,11 +16,10 @@ from the condensed matrix).
 from dataclasses import dataclass
 from functools import cache
 
-import numba
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-jit = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+from tramdva.bifurcation.elimination import factor_columns, forward_columns, jit
 
 
 @dataclass(frozen=True)
@@ -252,45 +251,6 @@ def solve(
 
 
 @jit
-def _factor_columns(a, pivots, columns, rows):
-    """Gaussian elimination of the first columns; pivots among the first rows.
-
-    Multipliers stay below the diagonal, in the row order of their own step: `_forward_columns`
-    swaps and subtracts in turn.
-    """
-    height, width = a.shape
-    for k in range(columns):
-        best, size = k, abs(a[k, k])
-        for i in range(k + 1, rows):
-            if abs(a[i, k]) > size:
-                best, size = i, abs(a[i, k])
-        pivots[k] = best
-        if best != k:
-            for j in range(k, width):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
-        inverse = 1.0 / a[k, k]
-        for i in range(k + 1, height):
-            factor = a[i, k] * inverse
-            a[i, k] = factor
-            if factor != 0.0:
-                for j in range(k + 1, width):
-                    a[i, j] -= factor * a[k, j]
-
-
-@jit
-def _forward_columns(a, pivots, columns, b):
-    """Apply the elimination of `_factor_columns` to a right-hand side."""
-    for k in range(columns):
-        best = pivots[k]
-        if best != k:
-            b[k], b[best] = b[best], b[k]
-        value = b[k]
-        if value != 0.0:
-            for i in range(k + 1, a.shape[0]):
-                b[i] -= a[i, k] * value
-
-
-@jit
 def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, phase, arc):
     """Assemble and condense each interval; columns: inside, left, right, T, p; two border rows."""
     N, m, n = f.shape
@@ -314,7 +274,7 @@ def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, pha
             for r in range(n):
                 a[c * n + r, inside + 2 * n] = -f[j, c, r]
                 a[c * n + r, inside + 2 * n + 1] = -period * f_p[j, c, r]
-        _factor_columns(a, pivots[j], inside, rows)
+        factor_columns(a, pivots[j], inside, rows)
     return lu, pivots
 
 
@@ -348,7 +308,7 @@ def _eliminate_chain(lu, n):
             for k in range(2 * n + 2):
                 column = k if k < n else k + n
                 a[n + i, column] += block[top + i, inside + k]
-        _factor_columns(a, pivots[j - 1], n, 2 * n)
+        factor_columns(a, pivots[j - 1], n, 2 * n)
         _copy_block(running, 0, 0, a, n, n, n + 2, 2 * n + 2)
     return chain, pivots, running
 
@@ -366,7 +326,7 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
     for j in range(N):
         for i in range(rows):
             rhs[j, i] = residual[j, i]
-        _forward_columns(lu[j], pivots[j], inside, rhs[j])
+        forward_columns(lu[j], pivots[j], inside, rhs[j])
         if j > 0:
             b = chain[j - 1]
             for i in range(n):
@@ -375,7 +335,7 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
                 b[n + i] = rhs[j, inside + i]
             for i in range(n, n + 2):
                 b[n + i] += running[i]
-            _forward_columns(chain_lu[j - 1], chain_pivots[j - 1], n, b)
+            forward_columns(chain_lu[j - 1], chain_pivots[j - 1], n, b)
         source = rhs[0, inside:] if j == 0 else chain[j - 1, n:]
         for i in range(n + 2):
             running[i] = source[i]
