@@ -13,17 +13,22 @@ ibid. 15
 from the condensed matrix).
 """
 
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-from tramdva.bifurcation.elimination import factor_columns, forward_columns, jit
+from tramdva.bifurcation.elimination import (
+    factor,
+    factor_columns,
+    forward_columns,
+    jit,
+    substitute,
+)
 
 
-@dataclass(frozen=True)
-class Basis:
+class Basis(NamedTuple):
     """Lagrange basis of degree m on the unit interval, at the Gauss points.
 
     Attributes
@@ -142,8 +147,7 @@ def mesh_imbalance(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> float:
     return float(share.max() / share.mean())
 
 
-@dataclass(frozen=True)
-class BorderedFactors:
+class BorderedFactors(NamedTuple):
     """Factorised linear system of an orbit; see `factorise`."""
 
     interval_lu: np.ndarray
@@ -151,21 +155,13 @@ class BorderedFactors:
     chain_lu: np.ndarray
     chain_pivots: np.ndarray
     closing: np.ndarray
+    closing_pivots: np.ndarray
     left: np.ndarray
     right: np.ndarray
 
 
-def factorise(
-    base: Basis,
-    h: np.ndarray,
-    period: float,
-    J: np.ndarray,
-    f: np.ndarray,
-    f_p: np.ndarray,
-    phase: np.ndarray,
-    arc: np.ndarray,
-    arc_scalars: tuple[float, float],
-) -> BorderedFactors:
+@jit
+def factorise(base, h, period, J, f, f_p, phase, arc, arc_scalars):
     """Factorise the bordered collocation matrix.
 
     Parameters
@@ -188,7 +184,8 @@ def factorise(
     Returns
     -------
     BorderedFactors
-        With ``left`` P and ``right`` Q, (n, n), of the condensed P u(0) + Q u(1) = 0.
+        With ``left`` P and ``right`` Q, (n, n), of the condensed P u(0) + Q u(1) = 0. A singular
+        matrix gives factors that are not finite.
 
     Notes
     -----
@@ -209,17 +206,30 @@ def factorise(
     )
     n = J.shape[2]
     chain_lu, chain_pivots, last = _eliminate_chain(interval_lu, n)
-    left, right = last[:n, :n], last[:n, n : 2 * n]
-    closing = np.hstack([last[:, :n] + last[:, n : 2 * n], last[:, 2 * n :]])  # u(0) = u(1)
-    closing[-1, -2:] += arc_scalars
+    left, right = last[:n, :n].copy(), last[:n, n : 2 * n].copy()
+    closing = np.empty((n + 2, n + 2))
+    for i in range(n + 2):
+        for k in range(n):
+            closing[i, k] = last[i, k] + last[i, n + k]  # u(0) = u(1)
+        closing[i, n] = last[i, 2 * n]
+        closing[i, n + 1] = last[i, 2 * n + 1]
+    closing[n + 1, n] += arc_scalars[0]
+    closing[n + 1, n + 1] += arc_scalars[1]
+    closing_pivots = factor(closing)
     return BorderedFactors(
-        interval_lu, interval_pivots, chain_lu, chain_pivots, closing, left, right
+        interval_lu,
+        interval_pivots,
+        chain_lu,
+        chain_pivots,
+        closing,
+        closing_pivots,
+        left,
+        right,
     )
 
 
-def solve(
-    factors: BorderedFactors, residual: np.ndarray, border: tuple[float, float]
-) -> tuple[np.ndarray, float, float]:
+@jit
+def solve(factors, residual, border):
     """Solution of the bordered system.
 
     Parameters
@@ -237,17 +247,17 @@ def solve(
         Nodal values (N m + 1, n), T and p.
     """
     N, m, n = residual.shape
-    rhs, chain, last = _forward(
+    rhs, chain, closing = _forward(
         factors.interval_lu,
         factors.interval_pivots,
         factors.chain_lu,
         factors.chain_pivots,
         residual.reshape(N, m * n),
-        np.array(border, float),
+        border,
     )
-    closing = np.linalg.solve(factors.closing, last)
+    substitute(factors.closing, factors.closing_pivots, closing)
     nodal = _backward(factors.interval_lu, factors.chain_lu, rhs, chain, closing, m)
-    return nodal, float(closing[n]), float(closing[n + 1])
+    return nodal, closing[n], closing[n + 1]
 
 
 @jit

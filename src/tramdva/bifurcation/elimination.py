@@ -6,6 +6,10 @@ import numpy as np
 jit = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 
 
+# Indices without sign: Numba then adds no test for negative ones, and the loops become vectors.
+_ONE = np.uint64(1)
+
+
 @jit
 def factor_columns(a, pivots, columns, rows):
     """Gaussian elimination of the first columns; pivots among the first rows.
@@ -13,10 +17,10 @@ def factor_columns(a, pivots, columns, rows):
     Multipliers stay below the diagonal, in the row order of their own step: `forward_columns`
     swaps and subtracts in turn.
     """
-    height, width = a.shape
-    for k in range(columns):
+    height, width = np.uint64(a.shape[0]), np.uint64(a.shape[1])
+    for k in range(np.uint64(columns)):
         best, size = k, abs(a[k, k])
-        for i in range(k + 1, rows):
+        for i in range(k + _ONE, np.uint64(rows)):
             if abs(a[i, k]) > size:
                 best, size = i, abs(a[i, k])
         pivots[k] = best
@@ -24,24 +28,24 @@ def factor_columns(a, pivots, columns, rows):
             for j in range(k, width):
                 a[k, j], a[best, j] = a[best, j], a[k, j]
         inverse = 1.0 / a[k, k]
-        for i in range(k + 1, height):
-            factor = a[i, k] * inverse
-            a[i, k] = factor
-            if factor != 0.0:
-                for j in range(k + 1, width):
-                    a[i, j] -= factor * a[k, j]
+        for i in range(k + _ONE, height):
+            multiplier = a[i, k] * inverse
+            a[i, k] = multiplier
+            if multiplier != 0.0:
+                for j in range(k + _ONE, width):
+                    a[i, j] -= multiplier * a[k, j]
 
 
 @jit
 def forward_columns(a, pivots, columns, b):
     """Apply the elimination of `factor_columns` to a right-hand side."""
-    for k in range(columns):
-        best = pivots[k]
+    for k in range(np.uint64(columns)):
+        best = np.uint64(pivots[k])
         if best != k:
             b[k], b[best] = b[best], b[k]
         value = b[k]
         if value != 0.0:
-            for i in range(k + 1, a.shape[0]):
+            for i in range(k + _ONE, np.uint64(a.shape[0])):
                 b[i] -= a[i, k] * value
 
 
@@ -63,3 +67,14 @@ def substitute(lu, pivots, b):
         for j in range(k + 1, n):
             value -= lu[k, j] * b[j]
         b[k] = value / lu[k, k]
+
+
+@jit
+def largest_magnitude(values):
+    """Largest magnitude of a flat array; NaN where one is not finite."""
+    size = 0.0
+    for value in values:
+        if not np.isfinite(value):
+            return np.nan
+        size = max(size, abs(value))
+    return size

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bifurcation.compiled import STEP, Evaluator, jacobian_matrices, right_hand_sides
-from tramdva.bifurcation.elimination import factor, jit, substitute
+from tramdva.bifurcation.elimination import factor, jit, largest_magnitude, substitute
 
 # A step with an old matrix must shrink the residual by this factor, else Newton begins anew.
 _CHORD_RATE = 0.2
@@ -131,29 +131,18 @@ def matrix(unknowns, z, J, last_row):
 
 
 @jit
-def _largest(values):
-    """Largest magnitude; NaN where one is not finite."""
-    size = 0.0
-    for value in values:
-        if not np.isfinite(value):
-            return np.nan
-        size = max(size, abs(value))
-    return size
-
-
-@jit
 def solve(unknowns, z, tolerance, max_iterations):
     """Newton's method for one free parameter: z and the residual before the last step."""
     size = np.inf
     for _ in range(max_iterations + 1):
         G, J = residual(unknowns, z)
-        size = _largest(G)
+        size = largest_magnitude(G)
         if not np.isfinite(size):
             break
         lu = matrix(unknowns, z, J, z)
         pivots = factor(lu)
         substitute(lu, pivots, G)
-        if not np.isfinite(_largest(G)):  # singular
+        if not np.isfinite(largest_magnitude(G)):  # singular
             break
         z = z - G  # also once more at the tolerance
         if size <= tolerance:
@@ -181,7 +170,7 @@ def correct(unknowns, predicted, tangent, tolerance, max_iterations, lu, pivots)
             z = predicted
     for iteration in range(max_iterations + 1):
         G, J = residual(unknowns, z)
-        size = _largest(G)
+        size = largest_magnitude(G)
         if not np.isfinite(size):
             return np.nan, iteration, z, tangent, lu, pivots
         lu = matrix(unknowns, z, J, tangent)
@@ -189,7 +178,7 @@ def correct(unknowns, predicted, tangent, tolerance, max_iterations, lu, pivots)
         step = np.zeros(z.size)
         step[:-1] = -G
         substitute(lu, pivots, step)
-        if not np.isfinite(_largest(step)):
+        if not np.isfinite(largest_magnitude(step)):
             return np.nan, iteration, z, tangent, lu, pivots
         z = z + step
         if size <= tolerance:
@@ -213,7 +202,7 @@ def _chord(unknowns, z, tangent, tolerance, lu, pivots):
     last = np.inf
     for _ in range(_CHORD_STEPS):
         G, _ = residual(unknowns, z)
-        size = _largest(G)
+        size = largest_magnitude(G)
         if size <= tolerance:
             return z, True
         if not size <= _CHORD_RATE * last:
