@@ -120,17 +120,34 @@ def error_monitor(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarra
     The derivative comes from the jumps of the m-th derivative at the mesh points, mean of both
     sides.
     """
-    h = np.diff(mesh)
-    nodal = nodal / np.maximum(
-        np.ptp(nodal, axis=0), 1e-300
-    )  # states count alike, whatever their size
-    highest = np.einsum("i,jin->jn", basis(degree).highest, interval_values(nodal, degree))
-    highest /= h[:, None] ** degree
-    spacing = 0.5 * (h + np.roll(h, 1))
-    jump = np.linalg.norm(highest - np.roll(highest, 1, axis=0), axis=1) / spacing
-    density = (0.5 * (jump + np.roll(jump, -1))) ** (1.0 / (degree + 1))
+    return _monitor(mesh[1:] - mesh[:-1], nodal, basis(degree).highest)
+
+
+@jit
+def _monitor(h, nodal, highest):
+    N, n, m = h.size, nodal.shape[1], highest.size - 1
+    derivative = np.zeros((N, n))
+    for s in range(n):
+        extent = nodal[:, s].max() - nodal[:, s].min()
+        size = max(extent, 1e-300)  # states count alike, whatever their size
+        for j in range(N):
+            for i in range(m + 1):
+                derivative[j, s] += highest[i] * (nodal[j * m + i, s] / size)
+            derivative[j, s] /= h[j] ** m
+    jump = np.empty(N + 1)
+    for j in range(N):
+        square = 0.0
+        for s in range(n):
+            square += (derivative[j, s] - derivative[j - 1, s]) ** 2
+        jump[j] = np.sqrt(square) / (0.5 * (h[j] + h[j - 1]))
+    jump[N] = jump[0]
+    density = np.empty(N)
+    total = 0.0
+    for j in range(N):
+        density[j] = (0.5 * (jump[j] + jump[j + 1])) ** (1.0 / (m + 1))
+        total += density[j] * h[j]
     # A floor keeps intervals where the orbit is almost polynomial from growing without bound.
-    return np.maximum(density, 0.1 * (density @ h) + 1e-300)
+    return np.maximum(density, 0.1 * total + 1e-300)
 
 
 def equidistributed_mesh(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarray:
@@ -143,7 +160,7 @@ def equidistributed_mesh(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np
 
 def mesh_imbalance(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> float:
     """Largest share of the error monitor over the mean; 1 on an equidistributed mesh."""
-    share = error_monitor(mesh, nodal, degree) * np.diff(mesh)
+    share = error_monitor(mesh, nodal, degree) * (mesh[1:] - mesh[:-1])
     return float(share.max() / share.mean())
 
 
@@ -356,35 +373,47 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
 
 @jit
 def _backward(lu, chain_lu, rhs, chain, closing, m):
-    """Back substitution: mesh points from right to left, then the nodes inside the intervals."""
+    """Back substitution: mesh points from right to left, then the nodes inside the intervals.
+
+    What is known is subtracted from all rows first, then column by column: no row waits for the
+    sum of another.
+    """
     N = lu.shape[0]
     n = closing.shape[0] - 2
     inside = n * (m - 1)
     nodal = np.empty((N * m + 1, n))
-    for k in range(n):
-        nodal[0, k] = nodal[N * m, k] = closing[k]
-    tail = closing[n:]
+    known = np.empty(3 * n + 2)
+    x = np.empty(max(inside, n))
+    nodal[0] = closing[:n]
+    nodal[N * m] = closing[:n]
+    known[:n] = closing[:n]
+    known[2 * n : 2 * n + 2] = closing[n:]
     for j in range(N - 1, 0, -1):
-        a, b = chain_lu[j - 1], chain[j - 1]
-        for k in range(n - 1, -1, -1):
-            value = b[k] - a[k, 3 * n] * tail[0] - a[k, 3 * n + 1] * tail[1]
-            for s in range(k + 1, n):
-                value -= a[k, s] * nodal[j * m, s]
-            for s in range(n):
-                value -= a[k, n + s] * nodal[0, s] + a[k, 2 * n + s] * nodal[(j + 1) * m, s]
-            nodal[j * m, k] = value / a[k, k]
-    x = np.empty(inside)
+        known[n : 2 * n] = nodal[(j + 1) * m]
+        _upper(chain_lu[j - 1, :n], chain[j - 1], known[: 2 * n + 2], x)
+        nodal[j * m] = x[:n]
     for j in range(N):
-        a = lu[j]
-        for k in range(inside - 1, -1, -1):
-            value = rhs[j, k]
-            for s in range(k + 1, inside):
-                value -= a[k, s] * x[s]
-            for s in range(n):
-                value -= a[k, inside + s] * nodal[j * m, s]
-                value -= a[k, inside + n + s] * nodal[(j + 1) * m, s]
-            value -= a[k, inside + 2 * n] * tail[0] + a[k, inside + 2 * n + 1] * tail[1]
-            x[k] = value / a[k, k]
-        for i in range(inside):
-            nodal[j * m + 1 + i // n, i % n] = x[i]
+        known[:n] = nodal[j * m]
+        known[n : 2 * n] = nodal[(j + 1) * m]
+        _upper(lu[j, :inside], rhs[j], known[: 2 * n + 2], x)
+        for i in range(1, m):
+            nodal[j * m + i] = x[(i - 1) * n : i * n]
     return nodal
+
+
+@jit
+def _upper(a, b, known, x):
+    """Unknowns x of the upper triangle left in `a` (k, k + l), those of its last columns known."""
+    height = np.uint64(a.shape[0])
+    one, zero = np.uint64(1), np.uint64(0)
+    for i in range(height):
+        value = b[i]
+        for s in range(np.uint64(known.size)):
+            value -= a[i, height + s] * known[s]
+        x[i] = value
+    for back in range(height):
+        k = height - one - back
+        x[k] /= a[k, k]
+        value = x[k]
+        for i in range(zero, k):
+            x[i] -= a[i, k] * value

@@ -99,12 +99,16 @@ class LimitCycleCurve:
         The fold is a zero of the tangent's parameter; the others are products over multipliers,
         the trivial one left out: (mu + 1), and (1 - mu_i mu_j).
         """
-        rest = point.multipliers[1:]
-        i, j = np.triu_indices(len(rest), 1)
+        rest = point.multipliers[1:].tolist()
+        doubling, torus = 1.0, 1.0
+        for i, multiplier in enumerate(rest):
+            doubling *= 1.0 + multiplier
+            for other in rest[i + 1 :]:
+                torus *= 1.0 - multiplier * other
         return {
             "fold": point.tangent.parameter,
-            "period_doubling": float(np.prod(1.0 + rest).real) if rest.size else np.nan,
-            "torus": float(np.prod(1.0 - rest[i] * rest[j]).real) if len(rest) > 1 else np.nan,
+            "period_doubling": complex(doubling).real if rest else np.nan,
+            "torus": complex(torus).real if len(rest) > 1 else np.nan,
         }
 
     def turning(self, point: LimitCycle, new: LimitCycle) -> float:
@@ -207,7 +211,8 @@ class LimitCycleCurve:
 
     def product(self, cycle: LimitCycle, a: Direction, b: Direction) -> float:
         """Inner product of two directions: states over the period, period, scaled parameter."""
-        return orbit_corrector.product(self._equations(cycle.degree), _unknowns(cycle), a, b)
+        mass, h = collocation.basis(cycle.degree).mass, cycle.mesh[1:] - cycle.mesh[:-1]
+        return orbit_corrector.product(mass, h, float(cycle.period), self._weight, a, b)
 
     def _unit(self, cycle: LimitCycle, direction: Direction) -> Direction:
         length = np.sqrt(self.product(cycle, direction, direction))

@@ -127,13 +127,12 @@ def correct(equations, orbit, tangent, linearisation, fixed_parameter):
 
 
 @jit
-def product(equations, orbit, a, b):
+def product(mass, h, period, weight, a, b):
     """Inner product of two directions: states over the period, period, scaled parameter."""
-    m, mass = equations.base.degree, equations.base.mass
-    n = orbit.nodal.shape[1]
+    m, n = mass.shape[0] - 1, a.nodal.shape[1]
     total = 0.0
     local = np.empty(n)
-    for j in range(orbit.h.size):
+    for j in range(h.size):
         for i in range(m + 1):
             local[:] = 0.0
             for k in range(m + 1):
@@ -142,9 +141,9 @@ def product(equations, orbit, a, b):
             value = 0.0
             for s in range(n):
                 value += local[s] * b.nodal[j * m + i, s]
-            total += orbit.h[j] * value
-    total += a.period / orbit.period**2 * b.period
-    return total + equations.weight * a.parameter * b.parameter
+            total += h[j] * value
+    total += a.period / period**2 * b.period
+    return total + weight * a.parameter * b.parameter
 
 
 @jit
@@ -177,8 +176,9 @@ def _dot(a, b):
 @jit
 def _unit(equations, orbit, direction, towards):
     """Direction of length 1 with a positive product with another one."""
-    factor = 1.0 / np.sqrt(product(equations, orbit, direction, direction))
-    if product(equations, orbit, towards, direction) < 0.0:
+    mass, weight = equations.base.mass, equations.weight
+    factor = 1.0 / np.sqrt(product(mass, orbit.h, orbit.period, weight, direction, direction))
+    if product(mass, orbit.h, orbit.period, weight, towards, direction) < 0.0:
         factor = -factor
     return Direction(
         direction.nodal * factor, direction.period * factor, direction.parameter * factor
@@ -214,9 +214,11 @@ def _at_gauss_points(nodal, matrix, intervals):
     out = np.zeros((intervals * m, n))
     for j in range(intervals):
         for c in range(m):
+            values = out[j * m + c]
             for i in range(m + 1):
+                weight, node = matrix[c, i], nodal[j * m + i]
                 for s in range(n):
-                    out[j * m + c, s] += matrix[c, i] * nodal[j * m + i, s]
+                    values[s] += weight * node[s]
     return out
 
 
