@@ -48,8 +48,8 @@ def test_kernels_are_compiled_once(tmp_path, monkeypatch, capfd):
     assert compiles()
     assert not compiles()
     # Other versions of Python and Numba find nothing in it, either.
-    monkeypatch.setattr(provenance.metadata, "version", lambda name: "99.0")
+    monkeypatch.setattr(numba_cache.metadata, "version", lambda name: "99.0")
     assert compiles()
     assert not compiles()
-    monkeypatch.setattr(provenance.sys, "version_info", (3, 99, 0))
+    monkeypatch.setattr(numba_cache.sys, "version_info", (3, 99, 0))
     assert compiles()
