@@ -16,7 +16,7 @@ from tramdva import results
 from tramdva.bogie.stored import stored_bogie
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import USES, used_values
-from tramdva.evolution.tendency import Wearing, linear_wear_response, wear_sensitivity
+from tramdva.evolution.tendency import linear_wear_response, wear_sensitivity
 from tramdva.running.numba_cache import use_numba_cache
 from tramdva.stages import bogie_simulation, wear
 from tramdva.stages.wheels_out_of_round import wearing
