@@ -40,6 +40,11 @@ class System(NamedTuple):
         """Number of positions in the state, the angles of the hubs left out."""
         return len(self.vehicle.names) - HUBS
 
+    @property
+    def states(self) -> int:
+        """Number of values in the state: positions, then velocities of all coordinates."""
+        return self.size + len(self.vehicle.names)
+
     def local(self, state: np.ndarray) -> np.ndarray:
         """Local variables (40,) of the contacts."""
         k, vehicle = self.size, self.vehicle

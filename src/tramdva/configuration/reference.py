@@ -1,13 +1,12 @@
 """The parameters as one table: for messages, for editors and for `config/README.md`.
 
-`python -m tramdva.configuration.reference config` rewrites `schema.json` and the table in
-`README.md` there.
+`python -m tramdva.configuration.reference config` rewrites `schema.json` and the table in the
+`README.md` of that folder.
 """
 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -143,7 +142,3 @@ def main(folder: Path) -> None:
     (folder / "schema.json").write_text(schema + "\n", encoding="utf-8")
     readme = folder / "README.md"
     readme.write_text(with_table(readme.read_text(encoding="utf-8")), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))

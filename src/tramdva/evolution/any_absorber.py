@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.absorbers import Receptances, attach, receptances
+from tramdva.bogie.absorber_ports import PortModes, Ports, port_modes, ports, receptances
 from tramdva.bogie.curving import Equilibrium, System
 from tramdva.bogie.rough_wheels import rough_bogie
 from tramdva.bogie.tram import BogieLine
@@ -14,36 +14,44 @@ from tramdva.evolution.tendency import Wearing, evolution_tendency, wear_rows, w
 class AnyAbsorber(NamedTuple):
     """What tells the tendency with every stiffness and damping of the absorbers.
 
-    bare : responses of the vehicle without absorbers
-    output : (f, wheels, 40), wear of the wheels out of round per local variables of the contacts
-    direct : (f, wheels), wear by the radius deviation itself
+    without_absorbers : (f, wheels) complex wear response
+    modes : wear of the wheels out of round and motion of the absorbers' places
     inertia : of the absorber, kg m^2 (kg if it translates)
     """
 
-    bare: Receptances
-    output: np.ndarray
-    direct: np.ndarray
+    without_absorbers: np.ndarray
+    modes: PortModes
     inertia: float
 
     def without(self) -> np.ndarray:
         """Evolution tendency (f, wheels) without absorbers."""
-        moved = np.einsum("fko,fo->fk", self.output, self.bare.local_by_wave)
-        return evolution_tendency(moved + self.direct)
+        return evolution_tendency(self.without_absorbers)
 
     def tendency(self, c_T: float, d_T: float) -> np.ndarray:
-        """Evolution tendency (f, wheels) with a stiffness and damping of the absorbers."""
-        moved = attach(self.bare, self.inertia, c_T, d_T, self.output)
-        return evolution_tendency(moved + self.direct)
+        """Evolution tendency (f, wheels) with a stiffness and damping (SI) of the absorbers."""
+        return evolution_tendency(self.modes.response(self.inertia, c_T, d_T))
 
 
-def any_absorber(
+class WearPorts(NamedTuple):
+    """The bogie without absorbers as they see it, for the wear of the wheels out of round.
+
+    without_absorbers : (f, wheels) complex wear response
+    ports : of the places of the absorbers; those that translate load the axle across their
+        direction already
+    """
+
+    without_absorbers: np.ndarray
+    ports: Ports
+
+
+def wear_ports(
     wearing: Wearing,
     line: BogieLine,
     system: System,
     equilibrium: Equilibrium,
     frequency: np.ndarray,
-) -> AnyAbsorber:
-    """Prepare the tendency with any absorbers.
+) -> WearPorts:
+    """Wear and motion of the places of the absorbers, by waves and by forces of the absorbers.
 
     Parameters
     ----------
@@ -51,10 +59,6 @@ def any_absorber(
     line : BogieLine, for places and inertia of the absorbers
     system, equilibrium : of the vehicle without absorbers
     frequency : (f,) Hz
-
-    Returns
-    -------
-    AnyAbsorber
     """
     bogie, wheels = rough_bogie(system, equilibrium), wearing.places
     rows = wear_rows(
@@ -65,6 +69,21 @@ def any_absorber(
         line.bogie.wheel.radius,
         wearing.wheels,
     )
-    absorber = line.bogie.absorber
-    bare = receptances(system, equilibrium, bogie, absorber, 2.0 * np.pi * frequency, rows.source)
-    return AnyAbsorber(bare, rows.output(wheels), rows.direct[:, wheels], absorber.I_T)
+    absorber, turn = line.bogie.absorber, 2.0 * np.pi * frequency
+    bare = receptances(system, equilibrium, bogie, absorber, turn, rows.source)
+    output, direct = rows.output(wheels), rows.direct[:, wheels]
+    alone = np.einsum("fko,fo->fk", output, bare.local_by_wave) + direct
+    return WearPorts(alone, ports(bare, absorber.I_T, output, direct))
+
+
+def any_absorber(
+    wearing: Wearing,
+    line: BogieLine,
+    system: System,
+    equilibrium: Equilibrium,
+    frequency: np.ndarray,
+) -> AnyAbsorber:
+    """Prepare the tendency with any absorbers; arguments as in `wear_ports`."""
+    found = wear_ports(wearing, line, system, equilibrium, frequency)
+    modes = port_modes(found.ports)
+    return AnyAbsorber(found.without_absorbers, modes, line.bogie.absorber.I_T)

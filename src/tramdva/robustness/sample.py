@@ -50,6 +50,16 @@ def cases(study: Mapping[str, Any], samples: int, seed: int) -> tuple[list[str],
     return varied + ["all"] * samples, np.array(rows)
 
 
+def conditions_of(shares: np.ndarray) -> list[Conditions]:
+    """Conditions of cases from their shares (c, r); those of the absorber are left out."""
+    return [Conditions(*map(float, row[: len(Conditions._fields)])) for row in shares]
+
+
+def absorber_shares(sample: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Shares (2, c) of the absorber's stiffness and damping in the cases of a sample."""
+    return sample["share"][:, -len(ABSORBER_RANGES) :].T
+
+
 def unsprung_mass(state: State) -> float:
     """Mass in kg of an axle with its wheels, what is fixed to it included."""
     vehicle = state.system.vehicle
@@ -64,7 +74,7 @@ def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def port_variables(found: Ports) -> dict[str, np.ndarray]:
-    """Ports as the variables of ``robustness_sample``; `stored_ports` is the way back."""
+    """Variables of ``robustness_sample`` that hold the ports of cases."""
     return {
         **_parts("wear_by_wave", found.output_by_wave),
         **_parts("wear_by_force", found.output_by_force),

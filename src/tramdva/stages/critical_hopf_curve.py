@@ -8,7 +8,7 @@ import numpy as np
 
 from tramdva.bifurcation import critical_hopf
 from tramdva.bifurcation.hopf import HopfPoint
-from tramdva.stages.wheelset_sections import columns
+from tramdva.variables.arrays import table
 from tramdva.variables.critical_hopf_curve import VARIABLES
 from tramdva.wheelset.critical import MARGINAL_GROWTH, hopf_frequency, largest_growth, walk_critical
 from tramdva.wheelset.hopf import physical_values
@@ -57,27 +57,9 @@ def compute(cfg: Mapping[str, Any], hopf_curves: Mapping[str, Any]) -> dict[str,
             if kind != "vanishing" and point.parameters[baseline._fields.index("c_T")] > 0.0
         ]
     return {
-        **columns(rows, _CRITICAL_COLUMNS),
-        **columns(special, _CRITICAL_SPECIAL_COLUMNS),
+        **table(VARIABLES, "critical_point", rows),
+        **table(VARIABLES, "special_point", special),
     }
-
-
-_CRITICAL_COLUMNS = {
-    "piece": int,
-    "branch": str,
-    "d_T": float,
-    "c_T": float,
-    "c_A": float,
-    "frequency": float,
-    "residual": float,
-    "stabilises_all_c_A": bool,
-}
-_CRITICAL_SPECIAL_COLUMNS = {
-    "special_kind": str,
-    "special_d_T": float,
-    "special_c_T": float,
-    "special_c_A": float,
-}
 
 
 def _critical_start(

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.stages.wheelset_sections import columns
+from tramdva.variables.arrays import table
 from tramdva.variables.cycle_amplitudes import VARIABLES
 from tramdva.wheelset.critical import critical_point_at
 from tramdva.wheelset.cycles import WheelsetBranch, cycle_at, limit_cycle_branch, orbit_extremes
@@ -50,20 +50,7 @@ def compute(
                 "d_T = %g N s/m, %s c_A: onset at c_T = %.6g N/m", d_T, axle, start.values.c_T
             )
             rows += _amplitude_rows(axle, start, cfg)
-    return columns(rows, _AMPLITUDE_COLUMNS)
-
-
-_AMPLITUDE_COLUMNS = {
-    "axle": str,
-    "d_T": float,
-    "c_T": float,
-    "c_A": float,
-    "period": float,
-    "y_R_deviation_max": float,
-    "a_R_max": float,
-    "stable": bool,
-    "status": str,
-}
+    return table(VARIABLES, "cycle", rows)
 
 
 def _amplitude_starts(

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.bifurcation.hopf import HopfCurve
-from tramdva.stages.wheelset_sections import columns
+from tramdva.variables.arrays import table
 from tramdva.variables.hopf_curves import VARIABLES
 from tramdva.wheelset.critical import curves_at, hopf_frequency
 from tramdva.wheelset.hopf import physical_values
@@ -48,26 +48,9 @@ def compute(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
             number += 1
         logger.info("d_T = %g N s/m: %d curves so far", d_T, number)
     return {
-        **columns(points, _CURVE_COLUMNS),
-        **columns(special, _SPECIAL_COLUMNS),
+        **table(VARIABLES, "curve_point", points),
+        **table(VARIABLES, "special_point", special),
     }
-
-
-_CURVE_COLUMNS = {
-    "curve": int,
-    "d_T": float,
-    "c_A": float,
-    "c_T": float,
-    "frequency": float,
-    "first_lyapunov_coefficient": float,
-    "residual": float,
-}
-_SPECIAL_COLUMNS = {
-    "special_kind": str,
-    "special_d_T": float,
-    "special_c_A": float,
-    "special_c_T": float,
-}
 
 
 def _curve_rows(number: int, values: WheelsetParameters, curve: HopfCurve) -> list[dict[str, Any]]:

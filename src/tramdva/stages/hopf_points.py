@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.stages.wheelset_sections import absorber_variants, columns
+from tramdva.stages.wheelset_sections import absorber_variants
+from tramdva.variables.arrays import table
 from tramdva.variables.hopf_points import VARIABLES
 from tramdva.wheelset.hopf import WheelsetHopfPoint, hopf_points_along
 from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
@@ -45,20 +46,7 @@ def compute(cfg: Mapping[str, Any], stability_map: Mapping[str, Any]) -> dict[st
         )
         logger.info("%s: %d Hopf points", name, len(found))
         rows += [_hopf_row(name, values, point) for point in found]
-    return columns(rows, _HOPF_COLUMNS)
-
-
-_HOPF_COLUMNS = {
-    "absorber": str,
-    "m_T": float,
-    "c_T": float,
-    "d_T": float,
-    "c_A": float,
-    "frequency": float,
-    "first_lyapunov_coefficient": float,
-    "residual": float,
-    "status": str,
-}
+    return table(VARIABLES, "hopf_point", rows)
 
 
 def _hopf_row(name: str, values: WheelsetParameters, point: WheelsetHopfPoint) -> dict[str, Any]:

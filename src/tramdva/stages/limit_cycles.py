@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from tramdva.bifurcation.orbit import LimitCycle
-from tramdva.stages.wheelset_sections import absorber_variants, columns
+from tramdva.stages.wheelset_sections import absorber_variants
+from tramdva.variables.arrays import table
 from tramdva.variables.limit_cycles import VARIABLES
 from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
 from tramdva.wheelset.hopf import physical_values, solve_hopf_point
@@ -60,44 +61,17 @@ def compute(cfg: Mapping[str, Any], hopf_points: Mapping[str, Any]) -> dict[str,
             specials += [_special_row(kind, name, value) for kind, value in branch.special]
             ends.append({"branch_absorber": name, "branch_c_A": c_A, "branch_ended": branch.ended})
             reached += [c_A] + ([branch.end.values.c_A] if branch.end else [])
-    table = columns(cycles, _CYCLE_COLUMNS)
     multipliers = np.full((len(cycles), 6), np.nan + 0j)
     for row, cycle in zip(multipliers, cycles, strict=True):
         row[: len(cycle["multipliers"])] = cycle["multipliers"]
     return {
-        **table,
+        **table(VARIABLES, "cycle", cycles),
         "floquet_multiplier_real": multipliers.real,
         "floquet_multiplier_imag": multipliers.imag,
-        **columns(equilibria, _EQUILIBRIUM_COLUMNS),
-        **columns(specials, _SPECIAL_COLUMNS),
-        **columns(ends, {"branch_absorber": str, "branch_c_A": float, "branch_ended": str}),
+        **table(VARIABLES, "equilibrium", equilibria),
+        **table(VARIABLES, "special_point", specials),
+        **table(VARIABLES, "branch", ends),
     }
-
-
-_CYCLE_COLUMNS = {
-    "absorber": str,
-    "cycle_branch": int,
-    "m_T": float,
-    "c_T": float,
-    "d_T": float,
-    "c_A": float,
-    "period": float,
-    "y_R_max": float,
-    "y_R_min": float,
-    "y_R_equilibrium": float,
-    "slip_min": float,
-    "a_R_max": float,
-    "stable": bool,
-    "residual": float,
-    "status": str,
-}
-_EQUILIBRIUM_COLUMNS = {
-    "equilibrium_absorber": str,
-    "equilibrium_c_A": float,
-    "equilibrium_y_R": float,
-    "equilibrium_stable": bool,
-}
-_SPECIAL_COLUMNS = {"special_kind": str, "special_absorber": str, "special_c_A": float}
 
 
 def _special_row(kind: str, name: str, c_A: float) -> dict[str, Any]:

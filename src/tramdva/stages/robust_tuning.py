@@ -18,7 +18,8 @@ from tramdva.robustness.criterion import (
     references,
     tolerance,
 )
-from tramdva.robustness.sample import assembled, stored_motion
+from tramdva.robustness.sample import absorber_shares, assembled, stored_motion
+from tramdva.variables.arrays import without_numbers
 from tramdva.variables.robust_tuning import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
@@ -68,7 +69,7 @@ def compute(
     }
     whole = fleet(sample, absorber["I_T"])
     if not (whole.case == 0).any():
-        return common | _without_nominal(cfg, sample, c_T.size, d_T.size)
+        return _without_nominal(cfg, sample, c_T.size, d_T.size) | common
     nominal, robust = _criteria(cfg, sample, whole)
     restless = sample["bare_growth_rate"][whole.case, OPERATING] >= 0.0
     suspects = [np.flatnonzero(restless[:1]), np.flatnonzero(restless)]
@@ -150,7 +151,7 @@ def _growth_rates(cfg, sample, designs: Sequence[Design | None]) -> np.ndarray:
         if design is None or not np.isfinite(design[0]):
             continue
         for case in np.flatnonzero(sample["status"] == "converged"):
-            c, d = sample["share"][case, -2:]
+            c, d = absorber_shares(sample)[:, case]
             own = (design[0] * c, design[1] * d)
             out[row, case] = [
                 _growth(cfg, stored_motion(sample, case, friction), own)
@@ -182,7 +183,7 @@ def _factors(
 ) -> dict[str, np.ndarray]:
     """What designs leave of the growth in the band of design."""
     cases, rows = len(sample["case"]), robust.fleet.case
-    shares = tuple(sample["share"][rows, -2:].T)
+    shares = tuple(absorber_shares(sample)[:, rows])
     factor, reference = np.full((len(designs), cases), np.nan), np.full(cases, np.nan)
     reference[rows] = robust.reference
     rubber = np.full((len(designs), len(RUBBER_ENDS)), np.nan)
@@ -238,7 +239,7 @@ def _peak_factors(cfg, sample, whole: Fleet, designs) -> dict[str, np.ndarray]:
             seen = np.flatnonzero(np.isfinite(place))
             part = whole.only(seen).within(place[seen] * (1.0 - NEAR), place[seen] * (1.0 + NEAR))
             reference = _peak_reference(part.largest(None)[:, w], part, own[seen])
-            shares = tuple(sample["share"][part.case, -2:].T)
+            shares = tuple(absorber_shares(sample)[:, part.case])
             for k, design in enumerate(designs):
                 if design is None or np.isfinite(design[0]):
                     value = part.largest(design, shares)[:, w]
@@ -278,7 +279,7 @@ def _loads(cfg, sample, near: Fleet, designs) -> dict[str, np.ndarray]:
     out = {f"{name}_amplitude": np.full((len(designs), cases), np.nan) for name in names}
     load_frequency = np.full((len(designs), cases), np.nan)
     turn = near.modes.angular_frequency
-    c, d = sample["share"][near.case, -2:].T[:, :, None]
+    c, d = absorber_shares(sample)[:, near.case, None]
     for k, design in enumerate(designs):
         if design is not None and not np.isfinite(design[0]):
             continue
@@ -312,31 +313,26 @@ def _loads(cfg, sample, near: Fleet, designs) -> dict[str, np.ndarray]:
 
 def _without_nominal(cfg, sample, c_points: int, d_points: int) -> dict[str, np.ndarray]:
     """Variables where the line as configured has no equilibrium: NaN, and a status that says so."""
-    cases, wheels, peaks = len(sample["case"]), len(sample["wheel"]), cfg["study"]["peaks"]
-    absorber, count = cfg["bogie"]["absorber"], len(DESIGNS)
+    peaks, absorber = cfg["study"]["peaks"], cfg["bogie"]["absorber"]
+    lengths = {
+        "case": len(sample["case"]),
+        "range": len(sample["range"]),
+        "wheel": len(sample["wheel"]),
+        "friction": len(sample["friction"]),
+        "design": len(DESIGNS),
+        "rubber_end": len(RUBBER_ENDS),
+        "peak": len(peaks),
+        "map_c_T": c_points,
+        "map_d_T": d_points,
+        "axis": 2,
+        "end": 2,
+    }
     missing = (np.nan, np.nan)
-
-    def none(*shape: int) -> np.ndarray:
-        return np.full(shape, np.nan)
-
     return {
-        "status": np.array(["no_equilibrium"] * count),
-        "map_nominal_factor": none(d_points, c_points),
-        "map_worst_factor": none(d_points, c_points),
+        **without_numbers(VARIABLES, lengths),
+        "status": np.array(["no_equilibrium"] * len(DESIGNS)),
         **_design_values(cfg, [None, (absorber["c_T"], absorber["d_T"]), missing, missing]),
-        "counted": np.zeros(cases, bool),
-        "factor": none(count, cases),
-        "reference": none(cases),
-        "worst_factor": none(count),
-        "self_excited_cases": none(count),
-        "nominal_factor": none(count),
         "rubber_end": np.array(RUBBER_ENDS),
-        "rubber_factor": none(count, len(RUBBER_ENDS)),
-        "tolerance": none(count, 2, 2),
         "peak": np.array([peak["name"] for peak in peaks]),
-        "peak_frequency": none(cases, wheels, len(peaks)),
-        "peak_factor": none(count, cases, wheels, len(peaks)),
-        "growth_rate": none(count, cases, 2),
-        **{name: none(count, cases) for name in LOADS},
         "unsprung_mass": sample["unsprung_mass"],
     }

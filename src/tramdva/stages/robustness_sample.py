@@ -10,14 +10,15 @@ import numpy as np
 
 from tramdva.bogie import absorber_ports
 from tramdva.bogie.absorber_ports import Motion, Ports
-from tramdva.bogie.conditions import Conditions, State, as_configured, reached
+from tramdva.bogie.conditions import Conditions, State, as_configured, reached, under
 from tramdva.bogie.curving import equilibrium, linearise, with_friction_decrease
 from tramdva.bogie.tram import run_through
-from tramdva.evolution.any_absorber import any_absorber
+from tramdva.evolution.any_absorber import wear_ports
 from tramdva.evolution.tendency import NEAR
 from tramdva.robustness.sample import (
     FRICTIONS,
     cases,
+    conditions_of,
     motion_variables,
     port_variables,
     ranges,
@@ -58,8 +59,7 @@ def compute(
         {**cfg, "bogie": cfg["bogie"] | {"absorber": absorber}}, contact_geometry
     )
     nominal = as_configured(line, run_through(line, numerics["curvature_steps"]))
-    count = len(Conditions._fields)
-    found = [_case(cfg, nominal, Conditions(*map(float, shares[k, :count]))) for k in chosen]
+    found = [_case(cfg, nominal, conditions) for conditions in conditions_of(shares[chosen])]
     return {
         "case": chosen.astype(float),
         "varied": np.array([varied[k] for k in chosen]),
@@ -67,7 +67,9 @@ def compute(
         "share": shares[chosen],
         "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
         "friction": np.array(FRICTIONS),
-        "speed": np.array([line.track.speed * shares[k, 3] for k in chosen]),
+        "speed": np.array(
+            [under(line, conditions).track.speed for conditions in conditions_of(shares[chosen])]
+        ),
         "unsprung_mass": np.float64(unsprung_mass(nominal)),
         **{name: np.array([case[name] for case in found]) for name in found[0]},
     }
@@ -95,7 +97,7 @@ def _case(cfg: Mapping[str, Any], nominal: State, conditions: Conditions) -> dic
             [absorber_ports.growth_rate(each.eigenvalue, limits) for each in motions]
         ),
         **port_variables(_ports(cfg, state, axis)),
-        **motion_variables(motions, 2 * state.system.size + 4),
+        **motion_variables(motions, state.system.states),
     }
     responses = [value for name, value in values.items() if name.startswith("wear_by")]
     finite = all(np.isfinite(value).all() for value in responses)
@@ -130,8 +132,7 @@ def _frequencies(cfg: Mapping[str, Any], eigenvalue: np.ndarray) -> np.ndarray:
 
 def _ports(cfg: Mapping[str, Any], state: State, axis: np.ndarray) -> Ports:
     """Wear of the wheels out of round and motion of the absorbers' places at frequencies in Hz."""
-    found = any_absorber(wearing(cfg), state.line, state.system, state.equilibrium, axis)
-    return absorber_ports.ports(found.bare, found.inertia, found.output, found.direct)
+    return wear_ports(wearing(cfg), state.line, state.system, state.equilibrium, axis).ports
 
 
 def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, Any]:
@@ -140,7 +141,7 @@ def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, A
     wheels = len(cfg["out_of_roundness"]["wheels"])
     absorber = nominal.line.bogie.absorber
     carriers = 12 if absorber.motion == "translation" else 4
-    modes, n = 2 * nominal.system.size + 4, absorber_ports.ABSORBERS
+    modes, n = nominal.system.states, absorber_ports.ABSORBERS
     none = complex(np.nan, np.nan)
     empty = Ports(
         axis,

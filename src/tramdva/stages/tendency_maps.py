@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.bogie.conditions import State, as_configured, reached
+from tramdva.bogie.curving import oscillations
 from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
 from tramdva.bogie.tram import absorber as absorber_of
 from tramdva.bogie.tram import run_through
@@ -102,11 +103,9 @@ def _over(cfg, known: State, designs, name: str, values, frequency) -> dict[str,
 
 
 def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
-    """Largest growth rate in 1/s of the oscillations in a band; NaN if there are none."""
-    value = bogie.eigenvalue
-    frequency = value.imag / (2.0 * np.pi)
-    inside = (frequency >= band["min"]) & (frequency <= band["max"])
-    return float(value.real[inside].max()) if inside.any() else np.nan
+    """Largest growth rate in 1/s of the oscillations in a band (Hz); NaN if there are none."""
+    values = oscillations(bogie.eigenvalue, (band["min"], band["max"]))
+    return float(values.real.max()) if values.size else np.nan
 
 
 def _over_absorbers(cfg, known: State, frequency: np.ndarray) -> dict[str, np.ndarray]:

@@ -7,7 +7,7 @@ from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
-from tramdva.wear.chart import WearChart
+from tramdva.wear.chart import CHART, WearChart
 from tramdva.wear.passages import ContactHistory, passages
 from tramdva.wheelset import model
 
@@ -69,7 +69,8 @@ def _contacts() -> wheel_forces.Contacts:
 
 
 def _wear(law: patch.ContactLaw) -> None:
-    grid, chart = law.grid, WearChart()
+    grid, numbers = law.grid, dict.fromkeys(WearChart._fields, 1.0)
+    chart = WearChart(**numbers | {"method": CHART})
     moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
     passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.evolution.out_of_roundness import radius_deviation
-from tramdva.stages.wear_sections import wear_chart, wear_grid
+from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.wear import VARIABLES
 from tramdva.wear.passages import AREAS, ContactHistory, depth_around, passages, wear_orders
 
@@ -66,7 +66,7 @@ def compute(
 
 def _worn_wheel(cfg, simulation, wheel: int, count: int) -> dict[str, Any]:
     """Orders of the depth (m), width (m), shares (k, 5) and change of region of a wheel."""
-    chart, grid = wear_chart(cfg), wear_grid(cfg)
+    chart, grid = chart_of(cfg), wear_grid(cfg)
     table, shear_modulus = simulation["kalker_table"], float(simulation["shear_modulus"])
     speed = float(simulation["rolling_speed"][wheel])
     radius = float(simulation["wheel_radius"] * speed / simulation["speed"])

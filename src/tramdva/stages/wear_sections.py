@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from tramdva.contact import fastsim
-from tramdva.wear.chart import WearChart
+from tramdva.wear.chart import WearChart, wear_chart
+from tramdva.wear.parameters import Wear
 
 
-def wear_chart(cfg: Mapping[str, Any]) -> WearChart:
+def chart_of(cfg: Mapping[str, Any]) -> WearChart:
     """Wear chart of the section ``wear``."""
-    return WearChart(**cfg["wear"])
+    return wear_chart(Wear.model_validate(cfg["wear"]))
 
 
 def wear_grid(cfg: Mapping[str, Any]) -> fastsim.PatchGrid:

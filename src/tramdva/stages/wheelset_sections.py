@@ -1,6 +1,6 @@
 """From sections of the configuration to what the basic model takes."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,9 +23,3 @@ def absorber_coordinates(cfg: Mapping[str, Any]) -> dict[str, Any]:
         "absorber_c_T": c_T,
         "absorber_d_T": np.array([d for _, _, d in variants]),
     }
-
-
-def columns(rows: Iterable[Mapping[str, Any]], names: Mapping[str, type]) -> dict[str, np.ndarray]:
-    """Table of rows as arrays by column, also without any row."""
-    rows = list(rows)
-    return {name: np.array([row[name] for row in rows], dtype=kind) for name, kind in names.items()}

@@ -109,10 +109,9 @@ def _step(x: np.ndarray, width: float) -> np.ndarray:
 
 
 def _coefficient(pressure: np.ndarray, velocity: np.ndarray, chart: WearChart) -> np.ndarray:
-    method = chart.as_array()[11]
-    if method == CONSTANT:
+    if chart.method == CONSTANT:
         return np.full(pressure.shape, chart.coefficient_constant, complex)
-    if method == CHART:
+    if chart.method == CHART:
         changes = _changes(velocity)
         low = 1.0 - _share_above(chart.velocity_low - velocity, changes)
         high = _share_above(velocity - chart.velocity_high, changes)

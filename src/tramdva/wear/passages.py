@@ -33,7 +33,7 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
     ----------
     field : TractionField of the patch
     rolling_speed : m/s
-    chart : from `WearChart.as_array`
+    chart : WearChart
     strip_depth : (strips,) array, receives the depth in m
 
     Returns
@@ -49,7 +49,7 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
         for j in range(slip.shape[1]):
             slip[k, j] = _slip(field, k, j)
     worn_area, speed = 0.0, abs(rolling_speed)
-    sharp = int(chart[11]) == CHART
+    sharp = chart.method == CHART
     pressure_change = slip_change = (0.0, 0.0)
     for k in range(slip.shape[0]):
         for j in range(strips):
@@ -63,7 +63,7 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
             coefficient = wear_coefficient(
                 pressure, speed * slip[k, j], chart, pressure_change, slip_change
             )
-            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart[0]
+            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart.hardness
             strip_depth[j] += depth
             worn_area += depth * field.area[k, j] / field.length_x[k, j]
     return worn_area
@@ -89,7 +89,7 @@ def region_areas(field, rolling_speed, chart, areas):
 def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) -> dict[str, float]:
     """Share of the patch area in each region, and `adhesion`; sums to one in contact."""
     areas = np.zeros(5)
-    region_areas(field, rolling_speed, chart.as_array(), areas)
+    region_areas(field, rolling_speed, chart, areas)
     total = areas.sum()
     names = (*REGIONS, "adhesion")
     shares = areas / total if total > 0.0 else areas
@@ -164,7 +164,7 @@ def passages(
     field = traction_field.empty_field(grid)
     _passages(
         values, kalker_table, shear_modulus, grid, field, float(rolling_speed),
-        chart.as_array(), out,
+        chart, out,
     )  # fmt: skip
     return Passages(*out)
 
