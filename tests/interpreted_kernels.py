@@ -49,7 +49,7 @@ def inputs() -> Values:
     configuration = load(CONFIG, overrides=CHANGES)
     cfg = {name: used_values(configuration, "paper", name) for name in USES}
     tables = contact_geometry.compute(cfg["contact_geometry"])
-    linear = bogie_linearisation.compute(cfg["bogie_linearisation_none"], tables)
+    linear = bogie_linearisation.compute(cfg["bogie_linearisation_none"], "none", tables)
     simulated = bogie_simulation.compute(cfg["bogie_simulation"], 26, tables, linear)
     return {
         "cfg": cfg,

@@ -61,7 +61,10 @@ def rough(quiet):
 def stored(quiet, rough):
     """As the file holds it, by absorber."""
     return {
-        name: variables(rough[name], run.curve.contacts, R0, (12, 12))
+        name: {
+            "absorber": np.array(name),
+            **variables(rough[name], run.curve.contacts, R0, (12, 12)),
+        }
         for name, run in quiet.items()
     }
 
