@@ -16,6 +16,7 @@ from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
 from tramdva.stages import wheelset_designs
 from tramdva.stages.axes import design_axis
+from tramdva.variables.registry import STAGES
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 HOSTILE = '</title><script>window.hacked = 1</script><img src=x onerror="hacked=2"> @data@ $$x^2$$'
@@ -70,7 +71,7 @@ def made_page(folder: Path, wheelset: dict, bogie: dict, label: str = HOSTILE) -
     paths = {}
     for name, values in (("wheelset_designs", wheelset), ("bogie_designs", bogie)):
         paths[name] = str(folder / f"{name}.nc")
-        results.save(paths[name], name, values, parameters={}, code="0" * 20)
+        results.save(paths[name], STAGES[name], values, parameters={}, code="0" * 20)
     script("explorer").main(page=str(folder / "explorer.html"), code="", cfg=cfg, **paths)
     return folder / "explorer.html"
 
