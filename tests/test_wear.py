@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from pydantic import ValidationError
+from wear_charts import chart_with
 
 from tramdva.contact import fastsim, kalker, traction_field
-from tramdva.wear.chart import WearChart, wear_coefficient
+from tramdva.wear.chart import wear_coefficient
 from tramdva.wear.passages import archard_depth, region_shares
 
 FLEXIBILITY = kalker.kalker_table(0.28)
@@ -20,9 +22,9 @@ def patch(load=35e3, creepages=(0.0, 0.04, 0.0), a=4e-3, b=4e-3, cells=20, frict
 
 
 def depth(field, speed=4.0, **changes):
-    chart = WearChart(**changes)
+    chart = chart_with(**changes)
     strips = np.zeros(field.area.shape[1])
-    area = archard_depth(field, speed, chart.as_array(), strips)
+    area = archard_depth(field, speed, chart, strips)
     return strips, area
 
 
@@ -56,7 +58,7 @@ def test_wear_is_linear_in_load_at_a_given_patch_and_in_sliding_distance():
 
 
 def test_chart_regions_and_limits():
-    chart = WearChart().as_array()
+    chart = chart_with()
     p = 1e9
     for velocity, k in [(0.1, 5e-4), (0.19999, 5e-4), (0.2, 35e-4), (0.7, 35e-4), (0.70001, 5e-4)]:
         assert wear_coefficient(p, velocity, chart) == k
@@ -65,7 +67,7 @@ def test_chart_regions_and_limits():
 
 
 def test_smoothed_chart_is_continuous_and_meets_the_chart_away_from_the_limits():
-    sharp, smooth = (WearChart(method=m).as_array() for m in ("chart", "smoothed"))
+    sharp, smooth = (chart_with(method=m) for m in ("chart", "smoothed"))
     for p, v in [(1e9, 0.1), (1e9, 0.45), (1e9, 1.5), (2.6e9, 0.3)]:
         assert_allclose(wear_coefficient(p, v, smooth), wear_coefficient(p, v, sharp), rtol=1e-12)
     assert_allclose(wear_coefficient(1e9, 0.2, smooth), 20e-4, rtol=1e-12)
@@ -75,7 +77,7 @@ def test_smoothed_chart_is_continuous_and_meets_the_chart_away_from_the_limits()
 
 
 def test_shares_of_the_patch_sum_to_one():
-    chart = WearChart()
+    chart = chart_with()
     inner = region_shares(patch(creepages=(0, 0.04, 0)), 4.0, chart)
     assert_allclose(sum(inner.values()), 1.0, rtol=1e-12)
     # 0.16 m/s, below the limit of 0.2 m/s except where traction is released at the edges.
@@ -109,6 +111,6 @@ def test_the_steps_of_the_chart_leave_no_stairs_in_the_wear_of_a_patch():
     [{"method": "linear"}, {"hardness": -1.0}, {"coefficient_mild": float("nan")},
      {"velocity_low": 0.69}],
 )  # fmt: skip
-def test_bad_charts_are_refused_in_one_line(change):
-    with pytest.raises(ValueError, match=r"^[^\n]+$"):
-        WearChart(**change)
+def test_bad_charts_are_refused(change):
+    with pytest.raises(ValidationError):
+        chart_with(**change)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.special import jv
+from wear_charts import chart_with
 
 from tramdva.contact import fastsim, kalker, patch
 from tramdva.wear.chart import WearChart, _share_above
@@ -24,7 +25,7 @@ def area_of(state: np.ndarray, cells: int, chart: WearChart, speed: float = SPEE
 @pytest.mark.parametrize("method", ["chart", "smoothed", "constant"])
 @pytest.mark.parametrize("speed", [4.0, 9.0, 17.0])
 def test_two_implementations_give_the_same_wear_and_the_derivative(method, speed):
-    chart = WearChart(method=method)
+    chart = chart_with(method=method)
     grid = fastsim.patch_grid(13, 13)
     value, gradient = worn_area_gradient(
         STATE, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart
@@ -42,7 +43,7 @@ def test_two_implementations_give_the_same_wear_and_the_derivative(method, speed
 
 
 def test_derivative_in_seizure_pressure():
-    chart = WearChart(hardness=8e8)  # peak pressure 1.27 GPa: the middle seizes
+    chart = chart_with(hardness=8e8)  # peak pressure 1.27 GPa: the middle seizes
     value, gradient = worn_area_gradient(
         STATE, LAW.kalker_table, LAW.shear_modulus, fastsim.patch_grid(16, 16), SPEED, chart
     )
@@ -64,7 +65,7 @@ def test_the_share_of_a_cell_above_a_limit_is_that_of_a_linear_field():
 
 def test_wear_has_no_stairs_in_the_slip():
     """The slope of the wear over the slip, which a sharp step per cell would make 0 or endless."""
-    chart = WearChart()
+    chart = chart_with()
     slopes = []
     for cells in (12, 24, 48):
         creepages = np.linspace(0.047, 0.053, 61)
@@ -78,7 +79,7 @@ def test_wear_has_no_stairs_in_the_slip():
 
 def test_full_sliding_wears_by_load_times_slip():
     """Archard's law by hand: k N s / H, where every cell slides at the same velocity."""
-    chart = WearChart(method="constant")
+    chart = chart_with(method="constant")
     state = np.array([4e-3, 4e-3, 35e3, 0.3, 0.0, 0.04, 0.0])
     expected = chart.coefficient_constant * 35e3 * 0.04 / chart.hardness
     # The slip loses what adhesion at the leading edge takes.
@@ -96,7 +97,7 @@ def test_apart_there_is_no_wear():
         LAW.shear_modulus,
         fastsim.patch_grid(8, 8),
         SPEED,
-        WearChart(),
+        chart_with(),
     )
     assert found.area[0] > 0.0
     assert found.area[1] == 0.0
@@ -125,6 +126,6 @@ def test_wear_of_several_revolutions_is_averaged():
 
 def test_flexibilities_are_those_of_the_law():
     flexibility = np.array(kalker.flexibilities(LAW.kalker_table, 4.5e-3, 3e-3, LAW.shear_modulus))
-    grid, chart = fastsim.patch_grid(10, 10), WearChart()
+    grid, chart = fastsim.patch_grid(10, 10), chart_with()
     value = worn_area(STATE + 0j, flexibility + 0j, grid, SPEED, chart)
     np.testing.assert_allclose(value.real, area_of(STATE, 10, chart), rtol=1e-12)

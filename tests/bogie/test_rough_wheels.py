@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from wear_charts import chart_with
 
 from tramdva.bogie import revolutions
 from tramdva.bogie import wheel_forces as running_module
@@ -27,7 +28,6 @@ from tramdva.evolution.tendency import (
     wear_sensitivity,
 )
 from tramdva.stages import bogie_simulation, wear
-from tramdva.wear.chart import WearChart
 
 FRONT = ("front_outer", "front_inner")
 V, R0 = 4.0, 0.3
@@ -88,7 +88,7 @@ def simulate(stored_values, tables, order, **changes):
 
 
 def linear(rough_, run, frequency, wheels=FRONT, cells=24, **chart):
-    wheels_of = WearChart(**({"method": "constant"} | chart))
+    wheels_of = chart_with(**({"method": "constant"} | chart))
     sensitivity = wear_sensitivity(
         rough_,
         run.curve.contacts.law,
@@ -155,7 +155,7 @@ def test_mean_wear_is_that_of_the_equilibrium(stored, rough, quiet, tables):
     sensitivity = wear_sensitivity(
         rough["paper"],
         quiet["paper"].curve.contacts.law,
-        Wearing(WearChart(method="smoothed"), fastsim.patch_grid(24, 24), FRONT),
+        Wearing(chart_with(method="smoothed"), fastsim.patch_grid(24, 24), FRONT),
     )
     np.testing.assert_allclose(worn["mean_wear_depth"], sensitivity.mean_depth()[:2], rtol=1e-3)
     np.testing.assert_allclose(worn["wear_depth"].mean(axis=1), worn["mean_wear_depth"], rtol=1e-9)
@@ -165,7 +165,7 @@ def test_a_vehicle_that_does_not_move_wears_by_the_load_of_hertz(rough, quiet):
     """By hand, constant k and full sliding: depth over its mean follows N ~ penetration^1.5."""
     bogie, law = rough["none"], quiet["none"].curve.contacts.law
     sensitivity = wear_sensitivity(
-        bogie, law, Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT)
+        bogie, law, Wearing(chart_with(method="constant"), fastsim.patch_grid(24, 24), FRONT)
     )
     rows = wear_rows(bogie, sensitivity, np.array([1e-3]), V, R0, FRONT)
     # The conformal flange root changes its curvature as the wheel sinks, the tread does not.
@@ -230,7 +230,7 @@ def attached(run, rough_, absorber_, inertia, c_T, d_T, frequency):
     sensitivity = wear_sensitivity(
         rough_,
         run.curve.contacts.law,
-        Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT),
+        Wearing(chart_with(method="constant"), fastsim.patch_grid(24, 24), FRONT),
     )
     rows = wear_rows(rough_, sensitivity, frequency, V, R0, FRONT)
     turn = 2.0 * np.pi * frequency
