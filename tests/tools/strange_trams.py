@@ -1,6 +1,6 @@
 """Random trams through all stages: each must end with results, or with a status that says why.
 
-    python tests/strange_trams.py --basic 300 --bogie 50 [--table trams.csv]
+    python tests/tools/strange_trams.py --basic 300 --bogie 50 [--table trams.csv]
 
 draws parameter sets over the ranges of the schema ("wide") and around the paper's line ("near"),
 sends each through the stages with coarse numerics in a process of its own and prints shares and
@@ -44,7 +44,7 @@ import numpy as np
 import snakefile_tables
 import yaml
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 SEED = 20
 BASIC = ("curve", "creep_force", "wheelset", "absorber", "forced_excitation")
 BOGIE = (*BASIC, "track", "bogie", "contact_geometry")

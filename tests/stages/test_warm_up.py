@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tramdva.running import numba_cache
 
-PROGRAM = Path(__file__).parent / "stages_after_warm_up.py"
+PROGRAM = Path(__file__).parents[1] / "tools/stages_after_warm_up.py"
 
 
 def test_after_the_warm_up_the_stages_compile_nothing():

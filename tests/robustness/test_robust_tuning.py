@@ -24,7 +24,7 @@ from tramdva.stages.bogie_sections import quiet_bogie_line
 from tramdva.stages.robust_tuning import NOMINAL, PAPER, ROBUST
 from tramdva.stages.wheels_out_of_round import wearing
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="module")

@@ -33,7 +33,7 @@ from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
 from tramdva.wheelset.hopf import solve_hopf_point
 from tramdva.wheelset.stability import growth_rate
 
-CONFIG = Path(__file__).resolve().parents[1] / "config"
+CONFIG = Path(__file__).resolve().parents[2] / "config"
 CHANGES = {
     "numerics": {
         "contact_geometry": {"shift_step": 4e-5, "yaw_nodes": 18},
