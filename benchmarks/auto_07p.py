@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tramdva import wheelset
+from tramdva.wheelset import model
 
 RUNS = 5
 
@@ -103,9 +103,9 @@ TASKS = {
 }  # fmt: skip
 
 
-def equations(p: wheelset.WheelsetParameters) -> str:
+def equations(p: model.WheelsetParameters) -> str:
     """The wheelset as AUTO's Fortran."""
-    state = wheelset.equilibrium(p, with_absorber=True)
+    state = model.equilibrium(p, with_absorber=True)
     numbers = {
         "c0": 1e-3 * p.Omega**2 * (p.r_C * np.cos(p.gamma) - p.L),
         "c1": 1e-6 * p.Omega**2,
@@ -125,7 +125,7 @@ def equations(p: wheelset.WheelsetParameters) -> str:
     return EQUATIONS.format(**fortran)
 
 
-def tasks(values: wheelset.WheelsetParameters, jacobian: bool) -> dict[str, tuple[float, int]]:
+def tasks(values: model.WheelsetParameters, jacobian: bool) -> dict[str, tuple[float, int]]:
     """CPU seconds and points of both tasks, best of several runs; empty without AUTO_DIR.
 
     With `jacobian` AUTO is given the derivatives of f (JAC = 1), else it takes differences.

@@ -1,6 +1,5 @@
 """Result files: validated, stamped, atomic, bit-identical."""
 
-import importlib
 import json
 import os
 import shutil
@@ -15,8 +14,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from tramdva import results, variables
-from tramdva.variables import shared
+from tramdva import results
 from tramdva.variables.kinds import Stage, real
 from tramdva.variables.registry import STAGES
 
@@ -109,32 +107,6 @@ def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
         )
 
     assert (tmp_path / "1").read_bytes() == (tmp_path / "2").read_bytes()
-
-
-def test_registry_names_all_it_needs() -> None:
-    for stage, description in STAGES.items():
-        for name, variable in description.variables.items():
-            assert variable.kind in ("real", "flag", "truth", "text"), (stage, name)
-            assert variable.long_name, (stage, name)
-            assert variable.unit, (stage, name)
-            assert bool(variable.meanings) == (variable.kind in ("flag", "truth")), (stage, name)
-        coordinates = {name for v in description.variables.values() for name in v.dimensions}
-        for name in coordinates & set(description.variables):
-            assert description.variables[name].dimensions == (name,), (stage, name)
-
-
-def test_registry_holds_the_variables_of_every_module() -> None:
-    modules = {path.stem for folder in variables.__path__ for path in Path(folder).glob("*.py")}
-
-    assert set(STAGES) == modules - {"__init__", "kinds", "shared", "registry"}
-    for stage in STAGES:
-        module = importlib.import_module(f"tramdva.variables.{stage}")
-        assert module.VARIABLES is STAGES[stage]
-        assert module.VARIABLES.name == stage
-
-
-def test_statuses_keep_their_numbers() -> None:
-    assert shared.STATUS[:3] == ("converged", "not_converged", "no_hopf_point")
 
 
 def test_flags_by_meaning_or_number(tmp_path: Path) -> None:

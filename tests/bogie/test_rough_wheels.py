@@ -6,7 +6,7 @@ from wear_charts import chart_with
 
 from tramdva.bogie import revolutions
 from tramdva.bogie import wheel_forces as running_module
-from tramdva.bogie.absorbers import attach, receptances
+from tramdva.bogie.absorber_ports import port_modes, ports, receptances
 from tramdva.bogie.curving import linearise
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.rough_wheels import (
@@ -61,7 +61,10 @@ def rough(quiet):
 def stored(quiet, rough):
     """As the file holds it, by absorber."""
     return {
-        name: variables(rough[name], run.curve.contacts, R0, (12, 12))
+        name: {
+            "absorber": np.array(name),
+            **variables(rough[name], run.curve.contacts, R0, (12, 12)),
+        }
         for name, run in quiet.items()
     }
 
@@ -232,8 +235,8 @@ def attached(run, rough_, absorber_, inertia, c_T, d_T, frequency):
     rows = wear_rows(rough_, sensitivity, frequency, V, R0, FRONT)
     turn = 2.0 * np.pi * frequency
     bare = receptances(run.curve, run.equilibrium, rough_, absorber_, turn, rows.source)
-    output = rows.output([0, 1])
-    return attach(bare, inertia, c_T, d_T, output) + rows.direct[:, :2]
+    found = ports(bare, inertia, rows.output([0, 1]), rows.direct[:, :2])
+    return port_modes(found).response(inertia, c_T, d_T)
 
 
 def test_attached_absorbers_respond_as_the_vehicle_built_with_them(line, quiet, rough):

@@ -34,12 +34,12 @@ def read(path: Path = SNAKEFILE) -> Tables:
     for node in ast.parse(text[: KEYWORD.search(text).start()]).body:
         if isinstance(node, ast.Assign):
             _assign(node, known)
-    figures = known["FIGURES"]
-    return Tables(
-        *({name: reads for name, (reads, _) in known[table].items()} for table in ("STAGES", "JOBS")),
-        {name: entry[0] for name, entry in figures.items()},
-        {name: entry[-1] for name, entry in figures.items()},
-    )  # fmt: skip
+    stages, jobs, reads = (
+        {name: entry[0] for name, entry in known[table].items()}
+        for table in ("STAGES", "JOBS", "FIGURES")
+    )
+    kinds = {name: entry[-1] for name, entry in known["FIGURES"].items()}
+    return Tables(stages, jobs, reads, kinds)
 
 
 def _assign(node: ast.Assign, known: dict[str, object]) -> None:

@@ -277,15 +277,20 @@ def _values(file: Made) -> Iterator[Entity]:
     for value in file.values:
         if value == Path(script_of(file.path)).stem:
             continue
-        is_code = isinstance(value, str) and CODE.fullmatch(value)
         text = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
         digest = hashlib.sha256(text.encode()).hexdigest()[:16]
         yield {
             "@id": f"#value-{digest}",
             "@type": "PropertyValue",
-            "name": "hash of the code" if is_code else "values of the configuration",
+            "name": _meaning(value),
             "value": text,
         }
+
+
+def _meaning(value: Any) -> str:
+    if isinstance(value, str) and CODE.fullmatch(value):
+        return "hash of the code"
+    return "orders of the wheels" if isinstance(value, list) else "values of the configuration"
 
 
 def _run(made: Sequence[Made], jobs: Sequence[Entity], arguments: Sequence[str]) -> list[Entity]:

@@ -1,6 +1,7 @@
 """The explorer in a real browser: what it shows is what the result files hold."""
 
 import io
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -16,8 +17,9 @@ from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
 from tramdva.stages import wheelset_designs
 from tramdva.stages.axes import design_axis
+from tramdva.variables.registry import STAGES
 
-CONFIG = Path(__file__).resolve().parents[1] / "config"
+CONFIG = Path(__file__).resolve().parents[2] / "config"
 HOSTILE = '</title><script>window.hacked = 1</script><img src=x onerror="hacked=2"> @data@ $$x^2$$'
 WHEELS = ("front_outer", "front_inner")
 
@@ -70,7 +72,7 @@ def made_page(folder: Path, wheelset: dict, bogie: dict, label: str = HOSTILE) -
     paths = {}
     for name, values in (("wheelset_designs", wheelset), ("bogie_designs", bogie)):
         paths[name] = str(folder / f"{name}.nc")
-        results.save(paths[name], name, values, parameters={}, code="0" * 20)
+        results.save(paths[name], STAGES[name], values, parameters={}, code="0" * 20)
     script("explorer").main(page=str(folder / "explorer.html"), code="", cfg=cfg, **paths)
     return folder / "explorer.html"
 
@@ -347,17 +349,21 @@ def test_the_same_results_give_the_same_page(page):
     again = """
 import sys
 from pathlib import Path
-from test_explorer import CONFIG, HOSTILE, config, script
+from figure_scripts import script
+from test_explorer import CONFIG, HOSTILE
+from tramdva.configuration.reading import load
+from tramdva.configuration.uses import used_values
 folder = Path(sys.argv[1])
-cfg = config.stage(config.load(CONFIG), "paper", "explorer") | {"label": HOSTILE}
+cfg = used_values(load(CONFIG), "paper", "explorer") | {"label": HOSTILE}
 names = ("wheelset_designs", "bogie_designs")
 paths = {name: str(folder / f"{name}.nc") for name in names}
 script("explorer").main(page=str(folder / sys.argv[2]), code="", cfg=cfg, **paths)
 """
+    here = Path(__file__).parent
     for name in ("first.html", "second.html"):
         subprocess.run(
             [sys.executable, "-c", again, str(page.parent), name],
-            cwd=Path(__file__).parent, check=True,
+            cwd=here, env=os.environ | {"PYTHONPATH": str(here.parent / "tools")}, check=True,
         )  # fmt: skip
     first, second = (page.with_name(f"{name}.html") for name in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()

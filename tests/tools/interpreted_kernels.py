@@ -1,7 +1,7 @@
 """Evaluate kernels, compiled or (NUMBA_DISABLE_JIT=1) as the Python that they are written in.
 
-    python tests/interpreted_kernels.py compiled FOLDER
-    NUMBA_DISABLE_JIT=1 python tests/interpreted_kernels.py interpreted FOLDER
+    python tests/tools/interpreted_kernels.py compiled FOLDER
+    NUMBA_DISABLE_JIT=1 python tests/tools/interpreted_kernels.py interpreted FOLDER
 
 The compiled run comes first: it also makes what takes too long in Python, which both start from.
 """
@@ -27,7 +27,7 @@ from tramdva.wheelset import model
 from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
 from tramdva.wheelset.hopf import solve_hopf_point
 
-CONFIG = Path(__file__).resolve().parents[1] / "config"
+CONFIG = Path(__file__).resolve().parents[2] / "config"
 CHANGES = {
     "numerics": {
         "contact_geometry": {"shift_step": 4e-5, "yaw_nodes": 18},
@@ -49,7 +49,7 @@ def inputs() -> Values:
     configuration = load(CONFIG, overrides=CHANGES)
     cfg = {name: used_values(configuration, "paper", name) for name in USES}
     tables = contact_geometry.compute(cfg["contact_geometry"])
-    linear = bogie_linearisation.compute(cfg["bogie_linearisation_none"], tables)
+    linear = bogie_linearisation.compute(cfg["bogie_linearisation_none"], "none", tables)
     simulated = bogie_simulation.compute(cfg["bogie_simulation"], 26, tables, linear)
     return {
         "cfg": cfg,

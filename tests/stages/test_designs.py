@@ -26,7 +26,7 @@ from tramdva.stages.wheels_out_of_round import wearing
 from tramdva.wheelset.model import linearised, wheelset_parameters
 from tramdva.wheelset.stability import characteristic_polynomial, hurwitz_determinants
 
-ROOT_CONFIG = Path(__file__).resolve().parents[1] / "config"
+ROOT_CONFIG = Path(__file__).resolve().parents[2] / "config"
 LIMITS = {"min": 10.0, "max": 1000.0}
 
 

@@ -1,6 +1,6 @@
 """Random trams through all stages: each must end with results, or with a status that says why.
 
-    python tests/strange_trams.py --basic 300 --bogie 50 [--table trams.csv]
+    python tests/tools/strange_trams.py --basic 300 --bogie 50 [--table trams.csv]
 
 draws parameter sets over the ranges of the schema ("wide") and around the paper's line ("near"),
 sends each through the stages with coarse numerics in a process of its own and prints shares and
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import copy
 import csv
+import importlib
 import json
 import os
 import select
@@ -21,7 +22,7 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -40,9 +41,10 @@ from tramdva.variables.registry import STAGES
 use_numba_cache()
 
 import numpy as np
+import snakefile_tables
 import yaml
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 SEED = 20
 BASIC = ("curve", "creep_force", "wheelset", "absorber", "forced_excitation")
 BOGIE = (*BASIC, "track", "bogie", "contact_geometry")
@@ -70,30 +72,31 @@ COARSE: dict[str, Any] = {
 SHORT_RIDE = {"study": {"curve_entry": {"entry": 0.5, "duration": 1.0}}}
 
 
-class Job(NamedTuple):
-    """A stage: its function's module and name, and the stages whose files it reads."""
-
-    module: str
-    upstream: tuple[str, ...] = ()
-
-
+READS = snakefile_tables.read().stages
 BASIC_JOBS = {
-    "stability_map": Job("stability"),
-    "hopf_points": Job("self_excitation", ("stability_map",)),
-    "limit_cycles": Job("sustained_vibration", ("hopf_points",)),
-    "hopf_curves": Job("critical_absorber"),
-    "critical_hopf_curve": Job("critical_absorber", ("hopf_curves",)),
-    "cycle_amplitudes": Job("sustained_vibration", ("critical_hopf_curve",)),
-    "absorber_tuning": Job("absorber", ("critical_hopf_curve",)),
-    "frequency_response": Job("absorber", ("absorber_tuning",)),
+    name: READS[name]
+    for name in (
+        "stability_map",
+        "hopf_points",
+        "limit_cycles",
+        "hopf_curves",
+        "critical_hopf_curve",
+        "cycle_amplitudes",
+        "absorber_tuning",
+        "frequency_response",
+    )
 }
 BOGIE_JOBS = {
-    **{name: BASIC_JOBS[name] for name in ("hopf_curves", "critical_hopf_curve")},
-    "absorber_tuning": BASIC_JOBS["absorber_tuning"],
-    "contact_geometry": Job("bogie.line"),
-    "curving_equilibrium": Job("bogie.stages", ("contact_geometry", "absorber_tuning")),
-    "bogie_modes": Job("bogie.stages", ("contact_geometry", "curving_equilibrium")),
-    "curve_entry": Job("bogie.stages", ("contact_geometry", "curving_equilibrium")),
+    name: READS[name]
+    for name in (
+        "hopf_curves",
+        "critical_hopf_curve",
+        "absorber_tuning",
+        "contact_geometry",
+        "curving_equilibrium",
+        "bogie_modes",
+        "curve_entry",
+    )
 }
 
 
@@ -187,17 +190,19 @@ def _put(tree: Any, path: str, value: float) -> None:
 # Running ----------------------------------------------------------------------------------------
 
 
-def run_stages(tram: Mapping[str, Any], jobs: Mapping[str, Job], folder: Path) -> Iterator[Outcome]:
+def run_stages(
+    tram: Mapping[str, Any], jobs: Mapping[str, Sequence[str]], folder: Path
+) -> Iterator[Outcome]:
     """Send a tram through stages; each result is saved and read again."""
     configuration = _configured(tram, folder)
     found: dict[str, dict[str, np.ndarray]] = {}
-    for name, job in jobs.items():
+    for name, reads in jobs.items():
         start = time.perf_counter()
-        if missing := [other for other in job.upstream if other not in found]:
+        if missing := [other for other in reads if other not in found]:
             yield Outcome(name, {}, [], f"not run: no {', '.join(missing)}", 0.0)
             continue
         try:
-            found[name] = _stage(configuration, name, job, found, folder)
+            found[name] = _stage(configuration, name, reads, found, folder)
         except Exception as error:
             traceback.print_exc()
             reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
@@ -219,21 +224,20 @@ def _configured(tram: Mapping[str, Any], folder: Path) -> Configuration:
 def _stage(
     configuration: Configuration,
     name: str,
-    job: Job,
+    reads: Sequence[str],
     found: Mapping[str, Mapping[str, np.ndarray]],
     folder: Path,
 ) -> dict[str, np.ndarray]:
-    module = __import__(f"tramdva.{job.module}", fromlist=[name])
-    function: Callable[..., Mapping[str, np.ndarray]] = getattr(module, name)
+    stage = importlib.import_module(f"tramdva.stages.{name}")
     cfg = used_values(configuration, "strange", name)
-    values = function(cfg, *(found[other] for other in job.upstream))
+    values = stage.compute(cfg, **{other: found[other] for other in reads})
     path = folder / f"{name}.nc"
-    results.save(path, name, values, parameters=cfg, code="")
+    results.save(path, stage.VARIABLES, values, parameters=cfg, code="")
     return results.read(path)
 
 
 def apart(
-    tram: Mapping[str, Any], jobs: Mapping[str, Job], limit: float
+    tram: Mapping[str, Any], jobs: Mapping[str, Sequence[str]], limit: float
 ) -> tuple[list[Outcome], str]:
     """Run the stages in a process of its own, which ends after a time limit.
 
@@ -259,7 +263,9 @@ def apart(
     return outcomes, f"ended with {status}" if status else ""
 
 
-def _report(tram: Mapping[str, Any], jobs: Mapping[str, Job], reading: int, writing: int) -> None:
+def _report(
+    tram: Mapping[str, Any], jobs: Mapping[str, Sequence[str]], reading: int, writing: int
+) -> None:
     code = 1
     try:
         os.close(reading)
@@ -378,7 +384,7 @@ class Tram(NamedTuple):
 def sample(
     numbers: Iterable[int],
     sections: tuple[str, ...],
-    jobs: Mapping[str, Job],
+    jobs: Mapping[str, Sequence[str]],
     near: float,
     limit: float,
     seed: int = SEED,

@@ -7,8 +7,8 @@ import yaml
 
 from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
 
-ROOT = Path(__file__).resolve().parents[1]
-REFERENCE = Path(__file__).parent / "reference"
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "tests/reference"
 
 
 def paper(**changes: float) -> WheelsetParameters:

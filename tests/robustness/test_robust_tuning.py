@@ -21,9 +21,10 @@ from tramdva.robustness.criterion import Criterion, Fleet
 from tramdva.robustness.sample import assembled, cases, ranges, stored_ports
 from tramdva.stages import contact_geometry, robust_tuning, robustness_sample
 from tramdva.stages.bogie_sections import quiet_bogie_line
+from tramdva.stages.robust_tuning import NOMINAL, PAPER, ROBUST
 from tramdva.stages.wheels_out_of_round import wearing
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -209,37 +210,28 @@ def test_references_are_never_below_the_line_as_configured():
 
 def test_robust_optimum_is_better_than_others_in_the_worst_case(settings, sample, tuned):
     assert list(tuned["status"]) == ["converged"] * 4
-    assert (
-        tuned["worst_factor"][robust_tuning.ROBUST] < tuned["worst_factor"][robust_tuning.NOMINAL]
-    )
-    assert tuned["worst_factor"][robust_tuning.ROBUST] < tuned["worst_factor"][robust_tuning.PAPER]
-    assert (
-        tuned["nominal_factor"][robust_tuning.NOMINAL]
-        < tuned["nominal_factor"][robust_tuning.ROBUST]
-    )
-    assert tuned["self_excited_cases"][robust_tuning.ROBUST] == 0.0
-    assert tuned["worst_factor"][robust_tuning.ROBUST] <= np.nanmin(tuned["map_worst_factor"]) * (
-        1 + 1e-9
-    )
-    assert tuned["nominal_factor"][robust_tuning.NOMINAL] <= np.nanmin(
-        tuned["map_nominal_factor"]
-    ) * (1 + 1e-9)
+    assert tuned["worst_factor"][ROBUST] < tuned["worst_factor"][NOMINAL]
+    assert tuned["worst_factor"][ROBUST] < tuned["worst_factor"][PAPER]
+    assert tuned["nominal_factor"][NOMINAL] < tuned["nominal_factor"][ROBUST]
+    assert tuned["self_excited_cases"][ROBUST] == 0.0
+    assert tuned["worst_factor"][ROBUST] <= np.nanmin(tuned["map_worst_factor"]) * (1 + 1e-9)
+    assert tuned["nominal_factor"][NOMINAL] <= np.nanmin(tuned["map_nominal_factor"]) * (1 + 1e-9)
     # Every case that counts is at most the worst, whatever its own shares of the rubber are.
-    whole = tuned["factor"][robust_tuning.ROBUST, tuned["counted"] & (tuned["varied"] != "all")]
-    assert np.nanmax(whole) <= tuned["worst_factor"][robust_tuning.ROBUST] * (1 + 1e-9)
+    whole = tuned["factor"][ROBUST, tuned["counted"] & (tuned["varied"] != "all")]
+    assert np.nanmax(whole) <= tuned["worst_factor"][ROBUST] * (1 + 1e-9)
 
 
 def test_robust_optimum_is_that_of_a_brute_force_grid(settings, sample, tuned):
     whole = criterion.fleet(sample, 2.0)
     _, robust = robust_tuning._criteria(settings, sample, whole)
     robust = robust._replace(counted=tuned["counted"][whole.case])
-    c, d = tuned["c_T"][robust_tuning.ROBUST], tuned["d_T"][robust_tuning.ROBUST]
+    c, d = tuned["c_T"][ROBUST], tuned["d_T"][ROBUST]
     around = [
         robust.worst((c * a, d * b))
         for a in np.linspace(0.7, 1.4, 15)
         for b in np.linspace(0.5, 1.8, 15)
     ]
-    assert min(around) >= tuned["worst_factor"][robust_tuning.ROBUST] * (1.0 - 5e-3)
+    assert min(around) >= tuned["worst_factor"][ROBUST] * (1.0 - 5e-3)
 
 
 def test_without_ranges_the_robust_optimum_is_the_nominal_one(settings, sample):
@@ -251,11 +243,8 @@ def test_without_ranges_the_robust_optimum_is_the_nominal_one(settings, sample):
     study = settings["study"] | {"rubber": {"stiffness": fixed, "damping": fixed}}
     found = robust_tuning.compute({**settings, "study": study}, [alone])
     for name in ("c_T", "d_T"):
-        assert found[name][robust_tuning.ROBUST] == found[name][robust_tuning.NOMINAL]
-    assert (
-        found["worst_factor"][robust_tuning.ROBUST]
-        == found["nominal_factor"][robust_tuning.NOMINAL]
-    )
+        assert found[name][ROBUST] == found[name][NOMINAL]
+    assert found["worst_factor"][ROBUST] == found["nominal_factor"][NOMINAL]
 
 
 def test_response_as_configured_is_that_of_the_attached_absorber(settings, sample, tuned):
@@ -266,8 +255,8 @@ def test_response_as_configured_is_that_of_the_attached_absorber(settings, sampl
     inside = (axis >= band["min"]) & (axis <= band["max"])
     with_it = evolution_tendency(modes.response(2.0, 1.74e5, 300.0))[inside].max()
     bare = evolution_tendency(ports.output_by_wave[0])[inside].max()
-    assert tuned["factor"][robust_tuning.PAPER, 0] == pytest.approx(with_it / bare, rel=1e-12)
-    assert tuned["nominal_factor"][robust_tuning.PAPER] == pytest.approx(with_it / bare, rel=1e-12)
+    assert tuned["factor"][PAPER, 0] == pytest.approx(with_it / bare, rel=1e-12)
+    assert tuned["nominal_factor"][PAPER] == pytest.approx(with_it / bare, rel=1e-12)
 
 
 def changed(sample, **values):
@@ -290,7 +279,7 @@ def test_a_case_that_no_absorber_calms_does_not_count(settings, sample):
 
     assert not found["counted"][row]
     assert found["counted"].sum() == len(found["counted"]) - 1
-    assert found["status"][robust_tuning.ROBUST] == "converged"
+    assert found["status"][ROBUST] == "converged"
     assert (found["growth_rate"][1:, row] >= 5.0 - 1e-9).all()
     assert np.isnan(found["factor"][1:, row]).all()
 
@@ -303,13 +292,10 @@ def test_where_nothing_grows_there_is_no_optimum(settings, sample):
         wear_by_force_imag=np.zeros_like(sample["wear_by_force_imag"]),
     )
     found = robust_tuning.compute(settings, [flat])
-    assert (
-        list(found["status"][[robust_tuning.NOMINAL, robust_tuning.ROBUST]])
-        == ["nothing_grows"] * 2
-    )
-    assert np.isnan(found["c_T"][[robust_tuning.NOMINAL, robust_tuning.ROBUST]]).all()
+    assert list(found["status"][[NOMINAL, ROBUST]]) == ["nothing_grows"] * 2
+    assert np.isnan(found["c_T"][[NOMINAL, ROBUST]]).all()
     assert np.isnan(found["factor"]).all()
-    assert np.isfinite(found["stroke_amplitude"][robust_tuning.PAPER]).all()
+    assert np.isfinite(found["stroke_amplitude"][PAPER]).all()
 
 
 def test_without_steady_running_the_status_says_so(settings, sample):
@@ -330,7 +316,5 @@ def test_a_case_without_equilibrium_is_left_out(settings, sample, tuned):
     found = robust_tuning.compute(settings, [changed(sample, status=status, **broken)])
     assert not found["counted"][-1]
     assert np.isnan(found["growth_rate"][1:, -1]).all()
-    assert found["c_T"][robust_tuning.NOMINAL] == tuned["c_T"][robust_tuning.NOMINAL]
-    assert found["worst_factor"][robust_tuning.ROBUST] <= tuned["worst_factor"][
-        robust_tuning.ROBUST
-    ] * (1 + 1e-6)
+    assert found["c_T"][NOMINAL] == tuned["c_T"][NOMINAL]
+    assert found["worst_factor"][ROBUST] <= tuned["worst_factor"][ROBUST] * (1 + 1e-6)

@@ -7,7 +7,7 @@ from types import ModuleType
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-FOLDER = Path(__file__).parents[1] / "paper_figures"
+FOLDER = Path(__file__).parents[2] / "paper_figures"
 STYLE = FOLDER / "tramdva.mplstyle"
 
 

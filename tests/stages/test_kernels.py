@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-PROGRAM = Path(__file__).parent / "interpreted_kernels.py"
+PROGRAM = Path(__file__).parents[1] / "tools/interpreted_kernels.py"
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from tramdva.report import design_sheet, design_sheet_page, figures
 from tramdva.report.design_sheet import NOMINAL, PAPER, ROBUST
 from tramdva.variables.registry import STAGES
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 KINDS = {"real": float, "flag": "U20", "truth": bool, "text": "U30"}
 DESIGN = script("design_sheet")
 

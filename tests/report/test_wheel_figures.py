@@ -124,13 +124,15 @@ def test_detail_shows_the_lowest_frequencies_on_their_own_scale(style):
 
 def test_wheels_are_shown_with_the_order_of_the_band_of_design(style, tmp_path):
     tendency = tmp_path / "evolution_tendency.nc"
-    results.save(tendency, "evolution_tendency", evolution_tendency(), parameters={}, code=CODE)
+    results.save(
+        tendency, STAGES["evolution_tendency"], evolution_tendency(), parameters={}, code=CODE
+    )
     paths = []
     for absorber in ("none", "paper"):
         for order in range(1, 69):
             path = tmp_path / absorber / f"order_{order}.nc"
             if order == 26:
-                results.save(path, "wear", worn(26), parameters={}, code=CODE)
+                results.save(path, STAGES["wear"], worn(26), parameters={}, code=CODE)
             paths.append(str(path))
     names = {"pdf": str(tmp_path / "x.pdf"), "png": str(tmp_path / "x.png")}
     script("worn_wheels").main(
@@ -164,7 +166,7 @@ def test_design_chart_marks_the_best_absorber(style):
 
 def test_table_of_effects_leaves_empty_what_there_is_not(tmp_path):
     path = tmp_path / "evolution_tendency.nc"
-    results.save(path, "evolution_tendency", evolution_tendency(), parameters={}, code=CODE)
+    results.save(path, STAGES["evolution_tendency"], evolution_tendency(), parameters={}, code=CODE)
     table, page = tmp_path / "t.csv", tmp_path / "t.html"
     script("table_absorber_effect").main(
         table=str(table), page=str(page), code=CODE, line="paper", evolution_tendency=str(path)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tramdva.running import numba_cache
 
-PROGRAM = Path(__file__).parent / "stages_after_warm_up.py"
+PROGRAM = Path(__file__).parents[1] / "tools/stages_after_warm_up.py"
 
 
 def test_after_the_warm_up_the_stages_compile_nothing():
@@ -17,11 +17,11 @@ def test_after_the_warm_up_the_stages_compile_nothing():
     kernels = json.loads(ended.stdout)
     assert kernels["after"] == kernels["before"]
     for name in (
-        "wheelset._rhs",
-        "bogie.running.all_wheel_forces",
+        "wheelset.model._rhs",
+        "bogie.wheel_forces.all_wheel_forces",
         "bogie.integration.run",
-        "bogie.running._sensitivity",
-        "wear_history._passages",
+        "bogie.wheel_forces._sensitivity",
+        "wear.passages._passages",
     ):
         assert kernels["before"][f"tramdva.{name}"] > 0
 
@@ -31,13 +31,15 @@ def test_kernels_are_compiled_once(tmp_path, monkeypatch, capfd):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     stub = tmp_path / "code/tramdva"
     stub.mkdir(parents=True)
-    (stub / "__init__.py").touch()
+    (stub / "stages").mkdir()
+    for folder in (stub, stub / "stages"):
+        (folder / "__init__.py").touch()
     monkeypatch.setenv("PYTHONPATH", str(stub.parent))
     kernel = stub / "kernel.py"
     kernel.write_text("@njit\ndef f(): pass\n")
 
     def compiles(body: str = "pass") -> bool:
-        (stub / "warm_up.py").write_text(f"def compile_kernels():\n    {body}\n")
+        (stub / "stages/warm_up.py").write_text(f"def compile_kernels():\n    {body}\n")
         numba_cache.compile_kernels_once(stub)
         return "tramdva: compiling" in capfd.readouterr().out
 

@@ -33,7 +33,7 @@ from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
 from tramdva.wheelset.hopf import solve_hopf_point
 from tramdva.wheelset.stability import growth_rate
 
-CONFIG = Path(__file__).resolve().parents[1] / "config"
+CONFIG = Path(__file__).resolve().parents[2] / "config"
 CHANGES = {
     "numerics": {
         "contact_geometry": {"shift_step": 4e-5, "yaw_nodes": 18},
@@ -93,12 +93,12 @@ def wheel_wear() -> None:
     configuration = load(CONFIG, overrides=CHANGES)
     values = {name: used_values(configuration, "paper", name) for name in USES}
     tables = contact_geometry.compute(values["contact_geometry"])
-    linear = bogie_linearisation.compute(values["bogie_linearisation_none"], tables)
+    linear = bogie_linearisation.compute(values["bogie_linearisation_none"], "none", tables)
     simulated = bogie_simulation.compute(values["bogie_simulation"], 26, tables, linear)
     worn = wear.compute(values["wear"], simulated)
     cfg = values["evolution_tendency"]
     cfg["study"]["absorbers"] = ["none"]
-    evolution_tendency.compute(cfg, {"none": linear}, {"none": [worn]})
+    evolution_tendency.compute(cfg, [linear], [worn])
     part = robustness_sample.compute(values["robustness_sample"], tables, 0)
     robust_tuning.compute(values["robust_tuning"], [part])
 

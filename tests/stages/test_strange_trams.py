@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 import strange_trams
-from strange_trams import BASIC, BASIC_JOBS, BOGIE, NEAR, Job, Outcome, Tram
+from strange_trams import BASIC, BASIC_JOBS, BOGIE, NEAR, Outcome, Tram
 
 from tramdva.configuration.line import Line
 
@@ -36,7 +36,7 @@ def test_trams_fit_the_schema_and_differ(number: int) -> None:
 
 def test_process_without_end_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(strange_trams, "run_stages", lambda *_: time.sleep(60))
-    outcomes, broken = strange_trams.apart({}, {"x": Job("x")}, 0.2)
+    outcomes, broken = strange_trams.apart({}, {"x": []}, 0.2)
 
     assert (outcomes, broken) == ([], "no end within 0.2 s")
     assert Tram("near", 0, outcomes, broken).verdict == "failed"

@@ -1,23 +1,15 @@
 """Lines whose physics differs from the paper's: every stage ends with results or with a status."""
 
+import importlib
 from pathlib import Path
 
 import numpy as np
 import pytest
+import strange_trams
 
 from tramdva import results
 from tramdva.configuration.reading import load_or_exit
 from tramdva.configuration.uses import used_values
-from tramdva.stages import (
-    absorber_tuning,
-    critical_hopf_curve,
-    cycle_amplitudes,
-    frequency_response,
-    hopf_curves,
-    hopf_points,
-    limit_cycles,
-    stability_map,
-)
 
 LINES = {
     "quiet": "creep_force: {B: 0.3}",
@@ -52,22 +44,13 @@ def line(request, tmp_path_factory, root) -> dict[str, dict[str, np.ndarray]]:
 def run_stages(configuration, folder: Path) -> dict[str, dict[str, np.ndarray]]:
     name = configuration.run.lines[0]
     found: dict[str, dict[str, np.ndarray]] = {"line": {"name": np.array(name)}}
-
-    def run(stage_name, function, *upstream):
-        cfg = used_values(configuration, name, stage_name)
-        values = function(cfg, *(found[other] for other in upstream))
-        path = folder / f"{stage_name}.nc"
-        results.save(path, stage_name, values, parameters=cfg, code="")
-        found[stage_name] = results.read(path)
-
-    run("stability_map", stability_map.compute)
-    run("hopf_points", hopf_points.compute, "stability_map")
-    run("limit_cycles", limit_cycles.compute, "hopf_points")
-    run("hopf_curves", hopf_curves.compute)
-    run("critical_hopf_curve", critical_hopf_curve.compute, "hopf_curves")
-    run("cycle_amplitudes", cycle_amplitudes.compute, "critical_hopf_curve")
-    run("absorber_tuning", absorber_tuning.compute, "critical_hopf_curve")
-    run("frequency_response", frequency_response.compute, "absorber_tuning")
+    for stage, reads in strange_trams.BASIC_JOBS.items():
+        cfg = used_values(configuration, name, stage)
+        module = importlib.import_module(f"tramdva.stages.{stage}")
+        values = module.compute(cfg, **{other: found[other] for other in reads})
+        path = folder / f"{stage}.nc"
+        results.save(path, module.VARIABLES, values, parameters=cfg, code="")
+        found[stage] = results.read(path)
     return found
 
 

@@ -1,6 +1,6 @@
 """Run the pipeline on a real Slurm that this program installs and starts on this machine.
 
-    python tests/single_node_slurm.py [--keep FOLDER] [target ...]
+    python tests/tools/single_node_slurm.py [--keep FOLDER] [target ...]
 
 Needs root on Debian or Ubuntu; elsewhere it says why it does nothing and ends with code 77. Slurm
 comes from the Debian packages, the executor from Python's package index into a folder of its
@@ -23,7 +23,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 SKIPPED = 77
 PACKAGES = ("slurm-wlm", "munge")
 PLUGINS = (
@@ -31,7 +31,7 @@ PLUGINS = (
     "snakemake-executor-plugin-slurm-jobstep==0.6.1",
 )
 CONFIGURATION = Path("/etc/slurm/slurm.conf")  # elsewhere the executor's commands miss it
-MARK = "# written by tests/single_node_slurm.py\n"
+MARK = "# written by tests/tools/single_node_slurm.py\n"
 TEMPLATE = """\
 ClusterName=single
 SlurmctldHost={host}(127.0.0.1)
