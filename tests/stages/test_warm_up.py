@@ -48,3 +48,10 @@ def test_kernels_are_compiled_once(tmp_path, monkeypatch, capfd):
     assert not compiles()
     os.utime(kernel, (1, 1))  # then Numba takes nothing from its cache
     assert compiles()
+    assert not compiles()
+    # Other versions of Python and Numba find nothing in it, either.
+    monkeypatch.setattr(numba_cache.metadata, "version", lambda name: "99.0")
+    assert compiles()
+    assert not compiles()
+    monkeypatch.setattr(numba_cache.sys, "version_info", (3, 99, 0))
+    assert compiles()

@@ -8,7 +8,7 @@ from wear_charts import chart_with
 
 from tramdva.contact import fastsim, kalker, traction_field
 from tramdva.wear.chart import wear_coefficient
-from tramdva.wear.passages import archard_depth, region_shares
+from tramdva.wear.passages import AREAS, archard_depth
 
 FLEXIBILITY = kalker.kalker_table(0.28)
 
@@ -24,8 +24,16 @@ def patch(load=35e3, creepages=(0.0, 0.04, 0.0), a=4e-3, b=4e-3, cells=20, frict
 def depth(field, speed=4.0, **changes):
     chart = chart_with(**changes)
     strips = np.zeros(field.area.shape[1])
-    area = archard_depth(field, speed, chart, strips)
+    slip = np.empty(field.area.shape)
+    area = archard_depth(field, speed, chart, slip, strips, np.zeros(len(AREAS)))
     return strips, area
+
+
+def region_shares(field, speed, chart):
+    """Share of the patch in each region of the chart and in adhesion."""
+    areas, strips = np.zeros(len(AREAS)), np.zeros(field.area.shape[1])
+    archard_depth(field, speed, chart, np.empty(field.area.shape), strips, areas)
+    return dict(zip(AREAS, areas / field.area.sum(), strict=True))
 
 
 def test_full_sliding_is_archards_law():
