@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tramdva import parsed_code
+from tramdva.running import parsed_code
 from tramdva.running.code_hash import code_hash
 from tramdva.running.parsed_code import parsed, written_tree
 
