@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bifurcation.textbook import brusselator, normal_form
 from numba import carray
 from numpy.testing import assert_allclose, assert_array_equal
+from textbook import brusselator, normal_form
 
 from tramdva.bifurcation import compiled, hopf
 from tramdva.bifurcation.compiled import Evaluation
