@@ -141,7 +141,7 @@ def wear_rows(
     def wear_by(sensitivity: np.ndarray) -> np.ndarray:
         """Wear (f, 4, zones, k) from derivatives (4, zones, results, k) of the contacts."""
         steady = np.einsum("wzck,wzc->wzk", sensitivity[:, :, WEAR_INPUTS], wear.gradient)
-        return steady - passing[..., None] * sensitivity[:, :, patch.FORWARD_SHIFT]
+        return steady - passing[..., None] * sensitivity[:, :, patch.WHEEL_LEAD]
 
     deviation = wear_by(bogie.sensitivity.deviation)
     direct = deviation[..., 0] + 1j * turn[:, None, None] * deviation[..., 1]

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from tramdva.bogie.vehicle import AXLE_OF_WHEEL, FORCES, LOCAL, SIDE
-from tramdva.contact import geometry, patch, profiles
+from tramdva.contact import geometry, patch, profiles, yawed_wheel
 
 LOCALS, WHEEL_FORCES = len(LOCAL), len(FORCES)
 # Range of the contact tables: m of lateral shift, rad of roll and yaw.
@@ -159,7 +159,7 @@ def wheel_forces(
 
     Notes
     -----
-    The spin turns about the wheel's own axis (-yaw, 1, roll), which moves with the rim.
+    The spin turns about the wheel's own axis, which moves with the rim.
     """
     places = contacts.places
     side = places.side[wheel]
@@ -174,7 +174,8 @@ def wheel_forces(
         local[5],
         local[6] + local[7] * arm,
     )
-    rotation = (local[7] - spin * yaw, spin, yaw_rate + spin * roll)
+    axis = yawed_wheel.wheel_axis(roll, yaw)
+    rotation = (local[7] + spin * axis[0], spin * axis[1], yaw_rate + spin * axis[2])
     position = (y - side * places.rail, z + roll * arm)
     rolling = speed - turning * places.lateral_position[wheel]
     force[:] = 0.0
@@ -194,7 +195,7 @@ def wheel_forces(
         force[1] += f_y
         force[2] += f_z
         force[3] += m_x + arm * f_z
-        force[4] += m_y - yaw * m_x + roll * m_z
+        force[4] += axis[0] * m_x + axis[1] * m_y + axis[2] * m_z
         force[5] += m_z - arm * f_x
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach
+from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach, yawed_wheel
 from tramdva.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
@@ -24,8 +24,9 @@ METHODS = {"fastsim": FASTSIM, "polach": POLACH}
     CONTACT_ANGLE, LONGITUDINAL_CREEPAGE, LATERAL_CREEPAGE, SPIN_CREEPAGE,
     SEMI_AXIS_LONGITUDINAL, SEMI_AXIS_LATERAL, FRICTION, SLIP_VELOCITY, ROLLING_RADIUS,
     WHEEL_POSITION, RAIL_POSITION, FORWARD_SHIFT, CURVATURE_LATERAL, LATERAL_VELOCITY,
-) = range(20)  # fmt: skip
-RESULTS = 20
+    WHEEL_LEAD,
+) = range(21)  # fmt: skip
+RESULTS = 21
 
 
 class ContactLaw(NamedTuple):
@@ -157,7 +158,7 @@ def contact_point(table, side, position, angles, radius_deviation, rows):
     Returns
     -------
     As `geometry.locate_contact`, then the arm from the wheel centre to the contact point:
-    arm_x, arm_y, arm_z in m, and arm_x again as forward shift R tan(delta) tan(yaw).
+    arm_x, arm_y, arm_z in m.
     """
     roll, yaw = -side * angles[0], side * angles[1]
     radius = table.wheel_radius
@@ -165,10 +166,11 @@ def contact_point(table, side, position, angles, radius_deviation, rows):
     shift = side * position[0] - radius * np.sin(roll)
     height = -position[1] - radius * (1.0 - np.cos(roll)) + radius_deviation
     found = geometry.locate_contact(table, shift, height, roll, yaw, rows)
-    forward = (radius + found[3]) * np.tan(found[1]) * np.tan(yaw)
-    arm_outward = found[4] - side * position[0]
-    arm_down = found[5] + position[1] + radius
-    return found, forward, side * arm_outward, -arm_down
+    arm_y = side * (found[4] - side * position[0])
+    arm_z = -(found[5] + position[1] + radius)
+    normal = (-side * np.sin(found[1]), np.cos(found[1]))
+    axis = yawed_wheel.wheel_axis(angles[0], angles[1])
+    return found, yawed_wheel.forward_shift(axis, normal, arm_y, arm_z), arm_y, arm_z
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -256,6 +258,7 @@ def wheel_contact(
     result[FORWARD_SHIFT] = arm_x
     result[CURVATURE_LATERAL] = found[6]
     result[LATERAL_VELOCITY] = v_t
+    result[WHEEL_LEAD] = yawed_wheel.lead_on_wheel(angles[0], angles[1], arm_x, arm_y, arm_z)
     f_y = cosine * force_t - sine * normal
     f_z = sine * force_t + cosine * normal
     return (

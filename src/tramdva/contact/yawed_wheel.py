@@ -1,0 +1,52 @@
+"""A yawed and rolled wheel on a rail: its axis, and where ahead of its centre it touches.
+
+Vehicle axes x along the rail, y left, z up. The wheel is a surface of revolution: every normal of
+it meets its axis. With the axis e, the normal n and the arm c from the wheel's centre to the
+contact the three therefore lie in one plane,
+
+    n . (e x c) = 0,
+
+and because n has no part along the rail this gives the forward part of c from the two others.
+The same triple product is the velocity along n, per unit of spin, of the material at the contact:
+a wheel that only rolls neither approaches the rail nor leaves it (docs/contact_kinematics.md).
+"""
+
+import numpy as np
+from numba import njit
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def wheel_axis(roll, yaw):
+    """Unit vector (x, y, z) of the axis, to the left; yaw about z, then roll about x, rad."""
+    along = np.cos(yaw)
+    return -np.sin(yaw), along * np.cos(roll), along * np.sin(roll)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def forward_shift(axis, normal, arm_y, arm_z):
+    """Distance in m by which a contact lies ahead of the wheel's centre, along the rail.
+
+    Parameters
+    ----------
+    axis : (x, y, z) of `wheel_axis`
+    normal : (y, z) of the contact's normal
+    arm_y, arm_z : m, from the wheel's centre to the contact
+
+    Notes
+    -----
+    Without roll and with the contact at the radius r and outward position s on the axis, this is
+    r tan(delta) sin(gamma) - s sin(gamma) to first order in the yaw angle gamma: the lead on the
+    circle through the contact, and that of this circle's centre, which lies on the yawed axis.
+    """
+    n_y, n_z = normal
+    return axis[0] * (n_y * arm_z - n_z * arm_y) / (n_y * axis[2] - n_z * axis[1])
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def lead_on_wheel(roll, yaw, arm_x, arm_y, arm_z):
+    """Distance in m from the lowest point of the circle through the contact, along the wheel.
+
+    It tells which material is in contact; the shift of the circle's centre has no part in it.
+    """
+    sine = np.sin(yaw)
+    return np.cos(yaw) * arm_x + sine * (np.cos(roll) * arm_y + np.sin(roll) * arm_z)

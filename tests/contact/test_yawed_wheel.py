@@ -1,0 +1,117 @@
+"""Where a yawed wheel touches: a search in space, and the work of its normal force."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq, minimize
+
+from tramdva.contact import geometry, locus, patch, profiles, yawed_wheel
+
+RADIUS, ROOT = 0.3, 1
+ROWS = np.zeros((geometry.WINDOW, locus.STRIDE))
+ATTITUDES = [(0.0, 0.02), (0.0, 0.04), (0.006, 0.04), (-0.008, 0.03), (0.006, -0.03)]
+
+
+@pytest.fixture(scope="module")
+def pair():
+    """The tram pair with a wider root, conformal up to 0.05 rad, and its tables."""
+    wheel, rail = profiles.tram_wheel(flange_root_radius=17e-3), profiles.grooved_rail()
+    tables = geometry.contact_tables(
+        wheel, rail, RADIUS, shift_range=(-4e-3, 3e-3), gap_scale=2e-6, shift_step=2.5e-5,
+        yaw_limit=0.055, yaw_nodes=31,
+    )  # fmt: skip
+    return wheel, rail, tables[ROOT]
+
+
+def point_of_wheel(wheel, s, theta, roll, yaw):
+    """Point (x, y, z) of a right wheel's surface from its centre; s outwards, theta from below.
+
+    The wheel is turned about z, then about x, by rotation matrices of its own here.
+    """
+    r = RADIUS + wheel.depth_at(s)
+    c, d, e, f = np.cos(yaw), np.sin(yaw), np.cos(roll), np.sin(roll)
+    about_z = np.array([[c, -d, 0.0], [d, c, 0.0], [0.0, 0.0, 1.0]])
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, e, -f], [0.0, f, e]])
+    return about_x @ about_z @ np.array([r * np.sin(theta), -s, -r * np.cos(theta)])
+
+
+def touching_point(wheel, rail, lateral, roll, yaw, start):
+    """Lowest gap of the wheel's surface, and its point from the centre."""
+
+    def gap(x):
+        _, y, z = point_of_wheel(wheel, x[0] * 1e-3, x[1], roll, yaw)
+        return 1e3 * (rail.depth_at(-(y + lateral)) + z + RADIUS)
+
+    found = minimize(gap, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-13})
+    return 1e-3 * found.fun, point_of_wheel(wheel, found.x[0] * 1e-3, found.x[1], roll, yaw)
+
+
+def touching_place(table, angle, roll, yaw):
+    """Place (y, z) of a right wheel's centre at which it just touches under an angle."""
+
+    def at(y):
+        found = patch.contact_point(table, -1.0, (y, 0.0), (roll, yaw), 0.0, ROWS)[0]
+        z = found[0] / np.cos(found[1])
+        for _ in range(30):
+            found = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, ROWS)[0]
+            z += found[0] / np.cos(found[1])
+        return found[1], z
+
+    sway = RADIUS * np.sin(roll)
+    y = brentq(lambda y: at(y)[0] - angle, -1.2e-3 - sway, 3.9e-3 - sway, xtol=1e-9)
+    return y, at(y)[1]
+
+
+@pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
+def test_contact_lies_where_a_search_in_space_finds_it(pair, roll, yaw):
+    """Right wheel; the lead has two parts of opposite sign, and the roll moves it by 2 %."""
+    wheel, rail, table = pair
+    for angle in (0.5, 0.7):
+        y, z = touching_place(table, angle, roll, yaw)
+        guess = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, ROWS)
+        start = (1e3 * guess[0][2], guess[1] / RADIUS)
+        gap, point = touching_point(wheel, rail, y, roll, yaw, start)
+        found, *arm = patch.contact_point(table, -1.0, (y, -gap), (roll, yaw), 0.0, ROWS)
+        # A soft minimum of 2 um; positions within what its mean differs from the lowest point.
+        assert_allclose(found[0], 0.0, atol=4e-6)
+        assert_allclose(arm[0], point[0], atol=2e-5 + 0.01 * abs(point[0]))
+        assert_allclose(arm[1:], point[1:], atol=1.5e-4)
+
+
+@pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
+def test_the_normal_force_turns_the_wheel_as_the_penetration_changes(pair, roll, yaw):
+    """A potential of the penetration: the moments about z and x follow from its derivatives."""
+    table, step = pair[2], 1e-5
+    y, z = touching_place(table, 0.65, roll, yaw)
+    place = (y, z - 60e-6)
+
+    def penetration(d_roll, d_yaw):
+        angles = (roll + d_roll, yaw + d_yaw)
+        return patch.contact_point(table, -1.0, place, angles, 0.0, ROWS)[0][0]
+
+    by_yaw = (penetration(0.0, step) - penetration(0.0, -step)) / (2.0 * step)
+    by_roll = (penetration(step, 0.0) - penetration(-step, 0.0)) / (2.0 * step)
+    found, x, y, z = patch.contact_point(table, -1.0, place, (roll, yaw), 0.0, ROWS)
+    n_y, n_z = np.sin(found[1]), np.cos(found[1])
+    # Wheel against rail moves by the rotation times the arm; along the normal that is a gap. The
+    # yaw comes first: it turns about an axis that the roll has tilted.
+    assert_allclose(by_yaw, -(n_y * np.cos(roll) + n_z * np.sin(roll)) * x, rtol=4e-3)
+    assert_allclose(by_roll, n_y * z - n_z * y, rtol=4e-3)
+
+
+@pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
+def test_normals_of_a_wheel_meet_its_axis(roll, yaw):
+    """The lead of a point on a cone: the plane of axis and normal holds the arm."""
+    slope, s = np.tan(0.6), -0.021
+    wheel = profiles.Profile("cone", "wheel", np.array([-0.03, 0.0]), slope * np.array([0.03, 0.0]),
+                             np.array([-slope, -slope]))  # fmt: skip
+    sine = slope * np.tan(-yaw)  # of the silhouette's forward angle; heading outwards is -yaw here
+    point = point_of_wheel(wheel, s, np.arcsin(sine), roll, yaw)
+    n_y = np.cos(roll) * slope / np.cos(yaw) - np.sin(roll) * np.sqrt(1.0 - sine**2)
+    n_z = np.cos(roll) * np.sqrt(1.0 - sine**2) + np.sin(roll) * slope / np.cos(yaw)
+    size = np.hypot(n_y, n_z)
+    axis = yawed_wheel.wheel_axis(roll, yaw)
+    x = yawed_wheel.forward_shift(axis, (n_y / size, n_z / size), point[1], point[2])
+    assert_allclose(x, point[0], rtol=1e-12)
+    lead = yawed_wheel.lead_on_wheel(roll, yaw, *point)
+    assert_allclose(lead, (RADIUS + wheel.depth_at(s)) * sine, rtol=1e-12)
