@@ -17,7 +17,7 @@ class AnyAbsorber(NamedTuple):
     """What tells the tendency with every stiffness and damping of the absorbers.
 
     bare : responses of the vehicle without absorbers
-    output : (f, wheels, 40), wear of the wheels out of round per local variables of the contacts
+    output : (f, wheels, 44), wear of the wheels out of round per local variables of the contacts
     direct : (f, wheels), wear by the radius deviation itself
     inertia : of the absorber, kg m^2 (kg if it translates)
     """

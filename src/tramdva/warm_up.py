@@ -73,23 +73,23 @@ def _wear(law: patch.ContactLaw) -> None:
 
 def _bogie(contacts: running.Contacts) -> None:
     """One step of a vehicle with a single mode."""
-    curvatures, local = np.zeros(3), np.zeros(40)
+    curvatures, local = np.zeros(3), np.zeros(44)
     running.contact_forces(contacts, curvatures, local)
     running.contact_jacobian(contacts, curvatures, local)
     running.radius_sensitivity(contacts, curvatures, local)
     modal = integration.ModalContacts(
-        np.zeros((2, 40)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 40))
+        np.zeros((2, 44)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 44))
     )
     passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
     zones = len(contacts.tables)
     round_wheels = integration.Excitation(
-        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 40)), np.zeros((2, 24)),
+        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 44)), np.zeros((2, 24)),
         np.zeros(2),
     )  # fmt: skip
     columns = np.array(integration.RECORDED)
     integration.run(
         modal, contacts, passage, round_wheels,
         integration.step_table(np.array([-1.0 + 1.0j]), 1e-3), 1e-3, 1.0, 0, 0.0, np.zeros(2),
-        integration.workspace(contacts), np.empty((1, 40)),
+        integration.workspace(contacts), np.empty((1, 44)),
         np.empty((1, 4, zones, columns.size)), columns, 1,
     )  # fmt: skip

@@ -10,7 +10,7 @@ from tramdva.bogie.line import absorber, changed, track_line
 from tramdva.bogie.track import TrackLine
 
 FREE = 1e9  # tolerance that leaves the step alone
-INNER_FRONT = 10  # first local variable of the wheel
+INNER_FRONT = 11  # first local variable of the wheel
 
 
 class Run:
@@ -32,7 +32,7 @@ class Run:
     def __call__(self, z, duration, interval, excitation=None, tolerance=FREE):
         """Local variables (k, 40) and status; z is advanced."""
         count = round(duration / interval)
-        local = np.empty((count, 40))
+        local = np.empty((count, 44))
         zones = len(self.system.contacts.tables)
         results = np.empty((count, 4, zones, len(integration.RECORDED)))
         _, status, _, _ = integration.run(
@@ -168,8 +168,8 @@ def test_ride_with_absorbers_ends_in_the_curving_equilibrium(line, running, tran
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     ride = curve_entry.ride(route(line, damped, transition), 5.0, 1e-3, 1, 1e-2)
     assert ride.status == "completed"
-    end = damped.curve.local(damped.equilibrium.state).reshape(4, 10)
-    found = ride.local[-1].reshape(4, 10)
+    end = damped.curve.local(damped.equilibrium.state).reshape(4, 11)
+    found = ride.local[-1].reshape(4, 11)
     np.testing.assert_allclose(found[:, :2], end[:, :2], atol=2e-5)  # m; car body decays slowly
     assert np.abs(curve_entry.contact_point_velocity(0.3, ride.local[-50:])).max() < 1e-3
 

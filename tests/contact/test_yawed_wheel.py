@@ -35,12 +35,20 @@ def point_of_wheel(wheel, s, theta, roll, yaw):
     return about_x @ about_z @ np.array([r * np.sin(theta), -s, -r * np.cos(theta)])
 
 
-def touching_point(wheel, rail, lateral, roll, yaw, start):
-    """Lowest gap of the wheel's surface, and its point from the centre."""
+def touching_point(wheel, rail, lateral, roll, yaw, start, curvature=0.0):
+    """Lowest gap of the wheel's surface, and its point from the centre.
+
+    The rail may be a circle in plan: its profile then stands along the radii.
+    """
+
+    def across(x, y):
+        if curvature == 0.0:
+            return y
+        return (1.0 - np.hypot(curvature * x, 1.0 - curvature * y)) / curvature
 
     def gap(x):
-        _, y, z = point_of_wheel(wheel, x[0] * 1e-3, x[1], roll, yaw)
-        return 1e3 * (rail.depth_at(-(y + lateral)) + z + RADIUS)
+        x, y, z = point_of_wheel(wheel, x[0] * 1e-3, x[1], roll, yaw)
+        return 1e3 * (rail.depth_at(-across(x, y + lateral)) + z + RADIUS)
 
     found = minimize(gap, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-13})
     return 1e-3 * found.fun, point_of_wheel(wheel, found.x[0] * 1e-3, found.x[1], roll, yaw)
@@ -50,10 +58,10 @@ def touching_place(table, angle, roll, yaw):
     """Place (y, z) of a right wheel's centre at which it just touches under an angle."""
 
     def at(y):
-        found = patch.contact_point(table, -1.0, (y, 0.0), (roll, yaw), 0.0, ROWS)[0]
+        found = patch.contact_point(table, -1.0, (y, 0.0), (roll, yaw), 0.0, 0.0, ROWS)[0]
         z = found[0] / np.cos(found[1])
         for _ in range(30):
-            found = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, ROWS)[0]
+            found = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, 0.0, ROWS)[0]
             z += found[0] / np.cos(found[1])
         return found[1], z
 
@@ -68,14 +76,34 @@ def test_contact_lies_where_a_search_in_space_finds_it(pair, roll, yaw):
     wheel, rail, table = pair
     for angle in (0.5, 0.7):
         y, z = touching_place(table, angle, roll, yaw)
-        guess = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, ROWS)
+        guess = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, 0.0, ROWS)
         start = (1e3 * guess[0][2], guess[1] / RADIUS)
         gap, point = touching_point(wheel, rail, y, roll, yaw, start)
-        found, *arm = patch.contact_point(table, -1.0, (y, -gap), (roll, yaw), 0.0, ROWS)
+        found, *arm, _, _ = patch.contact_point(table, -1.0, (y, -gap), (roll, yaw), 0.0, 0.0, ROWS)
         # A soft minimum of 2 um; positions within what its mean differs from the lowest point.
         assert_allclose(found[0], 0.0, atol=4e-6)
         assert_allclose(arm[0], point[0], atol=2e-5 + 0.01 * abs(point[0]))
         assert_allclose(arm[1:], point[1:], atol=1.5e-4)
+
+
+@pytest.mark.parametrize("curvature", [0.04, -0.06])
+@pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
+def test_contact_on_a_circle_is_that_of_the_search(pair, roll, yaw, curvature):
+    """The change by the curvature: gap, place and direction of the rail under the contact."""
+    wheel, rail, table = pair
+    y, z = touching_place(table, 0.6, roll, yaw)
+    guess = patch.contact_point(table, -1.0, (y, z), (roll, yaw), 0.0, 0.0, ROWS)
+    start = (1e3 * guess[0][2], guess[1] / RADIUS)
+    straight, before = touching_point(wheel, rail, y, roll, yaw, start)
+    curved, point = touching_point(wheel, rail, y, roll, yaw, start, curvature)
+    found, *arm, _, turn = patch.contact_point(
+        table, -1.0, (y, z), (roll, yaw), 0.0, curvature, ROWS
+    )
+    change = -(found[0] / np.cos(found[1]) - guess[0][0] / np.cos(guess[0][1]))
+    assert_allclose(change, curved - straight, atol=0.02 * abs(curved - straight) + 2e-8)
+    assert_allclose(turn, curvature * point[0], rtol=0.03)
+    ahead = arm[0] - turn * arm[1]  # back in the axes of the search
+    assert_allclose(ahead - guess[1], point[0] - before[0], atol=0.07 * abs(point[0] - before[0]))
 
 
 @pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
@@ -87,11 +115,11 @@ def test_the_normal_force_turns_the_wheel_as_the_penetration_changes(pair, roll,
 
     def penetration(d_roll, d_yaw):
         angles = (roll + d_roll, yaw + d_yaw)
-        return patch.contact_point(table, -1.0, place, angles, 0.0, ROWS)[0][0]
+        return patch.contact_point(table, -1.0, place, angles, 0.0, 0.0, ROWS)[0][0]
 
     by_yaw = (penetration(0.0, step) - penetration(0.0, -step)) / (2.0 * step)
     by_roll = (penetration(step, 0.0) - penetration(-step, 0.0)) / (2.0 * step)
-    found, x, y, z = patch.contact_point(table, -1.0, place, (roll, yaw), 0.0, ROWS)
+    found, x, y, z, *_ = patch.contact_point(table, -1.0, place, (roll, yaw), 0.0, 0.0, ROWS)
     n_y, n_z = np.sin(found[1]), np.cos(found[1])
     # Wheel against rail moves by the rotation times the arm; along the normal that is a gap. The
     # yaw comes first: it turns about an axis that the roll has tilted.

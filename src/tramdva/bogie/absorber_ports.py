@@ -45,7 +45,7 @@ def ports(bare: Receptances, inertia: float, output: np.ndarray, direct: np.ndar
     ----------
     bare : Receptances
     inertia : kg m^2, or kg of absorbers that translate
-    output : (f, k, 40), quantities per local variables; direct : (f, k), their part by the wave
+    output : (f, k, 44), quantities per local variables; direct : (f, k), their part by the wave
 
     Notes
     -----

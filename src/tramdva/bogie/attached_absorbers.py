@@ -22,9 +22,9 @@ class Receptances(NamedTuple):
     """Complex responses of the bogie without absorbers at f frequencies.
 
     angular_frequency : (f,) rad/s
-    local_by_wave : (f, 40), local variables of the contacts by radius deviations
+    local_by_wave : (f, 44), local variables of the contacts by radius deviations
     place_by_wave : (f, p), motion of the places of the absorbers by the same
-    local_by_force : (f, 40, p); place_by_force : (f, p, p), by forces at these places
+    local_by_force : (f, 44, p); place_by_force : (f, p, p), by forces at these places
 
     The first four places are the absorbers'; others carry an absorber's mass only.
     """
@@ -90,7 +90,7 @@ def attach(
     ----------
     bare : Receptances
     inertia : kg m^2 (kg if it translates); c_T, d_T : SI
-    output : (f, k, 40), quantities per local variables of the contacts
+    output : (f, k, 44), quantities per local variables of the contacts
     """
     turn, count = bare.angular_frequency, bare.place_by_wave.shape[1]
     stiffness = np.empty((turn.size, count), complex)

@@ -19,7 +19,7 @@ logger = logging.getLogger(__name__)
 HUBS = 4
 STATUS = ("converged", "not_converged", "wheel_lifted", "outside_profile")
 # Per step of the continuation, in the units of `vehicle.LOCAL`.
-_LARGEST_CHANGE = np.tile([2e-4, 5e-5, 4e-3, 4e-3, 0.02, 0.05, 0.05, 0.2, 0.2, 0.2], 4)
+_LARGEST_CHANGE = np.tile([2e-4, 5e-5, 4e-3, 4e-3, 0.02, 0.05, 0.05, 0.2, 0.2, 0.2, 4e-3], 4)
 
 
 class System(NamedTuple):
@@ -40,7 +40,7 @@ class System(NamedTuple):
         return len(self.vehicle.names) - HUBS
 
     def local(self, state: np.ndarray) -> np.ndarray:
-        """Local variables (40,) of the contacts."""
+        """Local variables (44,) of the contacts."""
         k, vehicle = self.size, self.vehicle
         return vehicle.local_position[:, :k] @ state[:k] + vehicle.local_velocity @ state[k:]
 
@@ -72,8 +72,8 @@ def system_on(
 class Linearisation(NamedTuple):
     """State matrix A of x' = A (x - x_0) and its parts.
 
-    matrix : (2 n - 4, 2 n - 4); contact_jacobian : (24, 40)
-    output : (40, 2 n - 4), local variables of the contacts from the state
+    matrix : (2 n - 4, 2 n - 4); contact_jacobian : (24, 44)
+    output : (44, 2 n - 4), local variables of the contacts from the state
     input : (2 n - 4, n), state derivative from generalised forces
     """
 
@@ -99,7 +99,7 @@ def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Lin
 
 
 def linearised(system: System, contact_jacobian: np.ndarray) -> Linearisation:
-    """Linearise a vehicle whose contacts have this Jacobian (24, 40).
+    """Linearise a vehicle whose contacts have this Jacobian (24, 44).
 
     Notes
     -----

@@ -116,7 +116,7 @@ def deviation_forces(
 def local_response(
     bogie: RoughBogie, angular_frequency: np.ndarray, source: np.ndarray
 ) -> np.ndarray:
-    """Complex amplitudes (f, 40) of the local variables of the contacts.
+    """Complex amplitudes (f, 44) of the local variables of the contacts.
 
     Parameters
     ----------

@@ -295,6 +295,37 @@ def touch_height(table, shift, roll, yaw, rows):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def approximate_contact(table, shift, height, roll, yaw):
+    """Slope of the locus and position on the wheel (m) at a relative position, after one step.
+
+    For what is small beside the contact itself; arguments as `locate_contact`.
+    """
+    coefficients, step = table.coefficients, table.step[0]
+    tangent = np.tan(yaw)
+    roll_cell, roll_fraction, _ = _cell(table, 1, roll)
+    yaw_cell, yaw_fraction, _ = _cell(table, 2, tangent * tangent)
+    start, t, _ = _cell(table, 0, shift + table.shear * tangent * tangent)
+    roll_weights, yaw_weights, w = _weights(roll_fraction), _weights(yaw_fraction), _weights(t)
+    a = b = c = d = position = 0.0
+    for k in range(4):
+        for m in range(4):
+            weight = roll_weights[k] * yaw_weights[m]
+            rows = coefficients[roll_cell + k, yaw_cell + m]
+            a += weight * rows[start, 0]
+            b += weight * rows[start + 1, 0]
+            c += weight * rows[start + 2, 0]
+            d += weight * rows[start + 3, 0]
+            position += weight * (w[1] * rows[start + 1, 1] + w[2] * rows[start + 2, 1])
+    s = 1.0 - t
+    value = w[0] * a + w[1] * b + w[2] * c + w[3] * d
+    slope = 0.5 * (s * s * (b - a) + 2.0 * (t * s + 0.5) * (c - b) + t * t * (d - c)) / step
+    bend = (s * (a - 2.0 * b + c) + t * (b - 2.0 * c + d)) / (step * step)
+    above = max(value - height, -FAR)
+    slope -= bend * above * slope / max(1.0 + slope * slope + above * bend, 0.5)
+    return slope, position / (w[1] + w[2])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def locate_contact(table, shift, height, roll, yaw, rows):
     """Contact of one zone at a relative position.
 
