@@ -127,6 +127,44 @@ def test_the_normal_force_turns_the_wheel_as_the_penetration_changes(pair, roll,
     assert_allclose(by_roll, n_y * z - n_z * y, rtol=4e-3)
 
 
+@pytest.mark.parametrize("curvature", [0.0, 0.04])
+@pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
+def test_relative_curvatures_are_those_of_the_gap_in_space(pair, roll, yaw, curvature):
+    """A paraboloid through gaps along the normal around the touching point, of both surfaces."""
+    wheel, rail, table = pair
+    y, z = touching_place(table, 0.6, roll, yaw)
+    found, *arm, heading, _ = patch.contact_point(
+        table, -1.0, (y, z), (roll, yaw), 0.0, curvature, ROWS
+    )
+    start = (1e3 * found[2], arm[0] / RADIUS)
+    gap, centre = touching_point(wheel, rail, y, roll, yaw, start, curvature)
+    n = np.array([0.0, np.sin(found[1]), np.cos(found[1])])
+    axes = np.array([[1.0, 0.0, 0.0], [0.0, n[2], -n[1]], n])
+    places, distances = [], []
+    for s, theta in np.random.default_rng(1).uniform(-1.0, 1.0, (60, 2)):
+        point = point_of_wheel(
+            wheel, found[2] + 3e-4 * s, np.arcsin(arm[0] / RADIUS) + 2e-3 * theta, roll, yaw
+        )
+        x, t, height = axes @ (point - centre)
+        across = point[1] + y
+        if curvature:
+            across = (1.0 - np.hypot(curvature * point[0], 1.0 - curvature * across)) / curvature
+        vertical = rail.depth_at(-across) + point[2] + RADIUS - gap
+        # Along the normal, at the wheel's point; the rail's slope there turns it in second order.
+        distances.append(vertical / np.hypot(1.0, rail.slope_at(-across)))
+        places.append((x, t, height))
+    x, t, _ = np.array(places).T
+    monomials = np.column_stack(
+        [0.5 * x**2, x * t, 0.5 * t**2, x, t, np.ones_like(x), x**3, x**2 * t, x * t**2, t**3]
+    )
+    expected = np.linalg.lstsq(monomials, np.array(distances), rcond=None)[0][:3]
+    axis = yawed_wheel.wheel_axis(roll, heading)
+    tensor = yawed_wheel.relative_curvatures(
+        axis, n[1:], RADIUS + found[3], found[8], found[6], curvature
+    )
+    assert_allclose(tensor, expected, rtol=0.03, atol=0.02 * abs(expected).max())
+
+
 @pytest.mark.parametrize(("roll", "yaw"), ATTITUDES)
 def test_normals_of_a_wheel_meet_its_axis(roll, yaw):
     """The lead of a point on a cone: the plane of axis and normal holds the arm."""

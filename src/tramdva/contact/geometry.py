@@ -107,7 +107,7 @@ def _zone(wheel: Profile, inner: float | None, outer: float | None):
             retreat = 0.5 * RETREAT * distance**2
             z[beyond] = wheel.depth_at(split) + tangent * distance - retreat
             slope[beyond] = tangent - RETREAT * distance
-    return y, z, slope
+    return y, z, slope, -np.gradient(slope, y) / (1.0 + slope**2) ** 1.5
 
 
 def contact_tables(
@@ -341,8 +341,9 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     penetration : m, along the contact normal; negative: distance
     contact_angle : rad, positive at the flange
     wheel_position, wheel_depth, rail_position, rail_depth : m
-    curvature_lateral : 1/m, sum of both bodies
+    curvature_lateral : 1/m, of the wheel's silhouette and the rail
     status : 0, or OUTSIDE_TABLE if shift, roll or yaw were held at the ends of the table
+    meridian_curvature : 1/m, of the wheel's profile, positive where it is convex
 
     Notes
     -----
@@ -385,4 +386,5 @@ def locate_contact(table, shift, height, roll, yaw, rows):
         _column(rows, i, w, 4),
         np.exp(_column(rows, i, w, 5)),
         OUTSIDE_TABLE if (roll_out or yaw_out or shift_out) else 0,
+        _column(rows, i, w, 6),
     )

@@ -22,8 +22,11 @@ CUT = 20.0  # weights below exp(-CUT) are left out
 COARSE = 5  # points of the wheel per stretch of the first search
 MARGIN = 4e-3  # m, gap above the lowest beyond which a stretch is left out
 REFERENCE_CURVATURE = 10.0
-HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE = range(6)
-COLUMNS = 6
+(
+    HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE,
+    MERIDIAN_CURVATURE,
+) = range(7)  # fmt: skip
+COLUMNS = 7
 STRIDE = 8  # columns per table entry, padded to whole vector registers
 
 
@@ -111,24 +114,24 @@ def arc_lengths(outward, downward, length, cosine):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, epsilon, gap, out):
+def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     """Quasi-elastic contact of a wheel shifted by `shift` on a rail.
 
     Parameters
     ----------
     curve : (4, n) silhouette: outwards, downwards, length, cosine
-    wheel_position, wheel_depth : (n,) the profile coordinates of the silhouette's points
+    wheel : (4, n) position, depth, slope and curvature of the profile at the silhouette's points
     shift : m, lateral position of the wheel's origin relative to the rail's, outwards
     rail_grid : (first, spacing) in m; rail : (2, k) depth and slope on it
     epsilon : m, gap scale of the averaging
     gap : (n,) scratch array
     out : (COLUMNS,) array, receives height of the wheel's origin at touch (downwards), contact
-        position and depth on the wheel (its own axes) and on the rail, and ln of the lateral
-        curvature sum in 1/m
+        position and depth on the wheel (its own axes) and on the rail, ln of the lateral
+        curvature sum of the silhouette in 1/m, and the curvature of the wheel's profile in 1/m
     """
     first, spacing = rail_grid
     best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
-    total = mean_wheel = mean_depth = mean_offset = square = steepness = 0.0
+    total = mean_wheel = mean_depth = mean_offset = square = steepness = bend = 0.0
     lowest, centre, inverse = gap[best], curve[0, best], 1.0 / epsilon
     for i in range(gap.size):
         if gap[i] - lowest > MARGIN or curve[2, i] == 0.0:
@@ -139,8 +142,9 @@ def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, e
         weight = curve[2, i] * np.exp(-exponent)
         offset = curve[0, i] - centre
         total += weight
-        mean_wheel += weight * wheel_position[i]
-        mean_depth += weight * wheel_depth[i]
+        mean_wheel += weight * wheel[0, i]
+        mean_depth += weight * wheel[1, i]
+        bend += weight * wheel[3, i]
         mean_offset += weight * offset
         square += weight * offset * offset
         steepness += weight * curve[3, i]
@@ -154,6 +158,7 @@ def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, e
     out[RAIL_POSITION] = shift + centre + mean_offset
     out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
     out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
+    out[MERIDIAN_CURVATURE] = bend / total
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -162,8 +167,8 @@ def fill_table(
 ):
     """Fill `table` of shape (shifts, rolls, yaws, STRIDE) by `contact_column`.
 
-    `wheel` is a (3, n) array: position, depth and slope of the profile; the table's shift is the
-    lateral shift plus `shear` (m) times tan(yaw)^2.
+    `wheel` is a (4, n) array: position, depth, slope and curvature (1/m, where convex positive) of
+    the profile; the table's shift is the lateral shift plus `shear` (m) times tan(yaw)^2.
     """
     curve = np.empty((4, wheel.shape[1]))
     gap = np.empty(wheel.shape[1])
@@ -175,8 +180,7 @@ def fill_table(
             for i in range(shifts.size):
                 contact_column(
                     curve,
-                    wheel[0],
-                    wheel[1],
+                    wheel,
                     shifts[i] - shear * tangent,
                     rail_grid,
                     rail,

@@ -24,9 +24,9 @@ METHODS = {"fastsim": FASTSIM, "polach": POLACH}
     CONTACT_ANGLE, LONGITUDINAL_CREEPAGE, LATERAL_CREEPAGE, SPIN_CREEPAGE,
     SEMI_AXIS_LONGITUDINAL, SEMI_AXIS_LATERAL, FRICTION, SLIP_VELOCITY, ROLLING_RADIUS,
     WHEEL_POSITION, RAIL_POSITION, FORWARD_SHIFT, CURVATURE_LATERAL, LATERAL_VELOCITY,
-    WHEEL_LEAD,
-) = range(21)  # fmt: skip
-RESULTS = 21
+    WHEEL_LEAD, SHEAR,
+) = range(22)  # fmt: skip
+RESULTS = 22
 
 
 class ContactLaw(NamedTuple):
@@ -125,8 +125,12 @@ def tangential_forces(
     lateral_creepage,
     spin_creepage,
     work,
+    shear,
 ):
-    """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method."""
+    """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method.
+
+    Polach's formula knows no patch that is turned: it leaves the shear out.
+    """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if law.method == POLACH:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
@@ -137,7 +141,7 @@ def tangential_forces(
     flexibility = kalker.flexibilities(law.kalker_table, a, b, law.shear_modulus)
     return fastsim.fastsim_forces(
         a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
-        flexibility, law.grid, work,
+        flexibility, law.grid, work, shear,
     )  # fmt: skip
 
 
@@ -238,9 +242,12 @@ def wheel_contact(
     v_z = velocity[2] + roll_rate * arm_y - spin_rate * arm_x
     v_t = cosine * v_y + sine * v_z
     v_n = cosine * v_z - sine * v_y
-    curvature_longitudinal = np.cos(angle) / (table.wheel_radius + found[3])
-    elastic, a, b = hertz.hertz_ellipse(
-        law.hertz_table, curvature_longitudinal, found[6], law.modulus, penetration
+    axis, radius = yawed_wheel.wheel_axis(angles[0], yaw), table.wheel_radius + found[3]
+    along, mixed, across = yawed_wheel.relative_curvatures(
+        axis, (-sine, cosine), radius, found[8], found[6], rail_curvature
+    )
+    elastic, a, b, shear = hertz.turned_ellipse(
+        law.hertz_table, along, mixed, across, law.modulus, penetration
     )
     approach = cosine * radius_deviation_rate - v_n
     normal = hertz.damped_normal_force(elastic, approach, law.damping_time)
@@ -251,7 +258,7 @@ def wheel_contact(
     force_x = force_t = moment_n = 0.0
     if normal > 0.0:
         force_x, force_t, moment_n = tangential_forces(
-            law, a, b, normal, friction, nu_x, nu_y, phi, work
+            law, a, b, normal, friction, nu_x, nu_y, phi, work, shear
         )
     status = CONTACT if normal > 0.0 else NO_CONTACT
     if found[7] != 0 or not np.isfinite(normal + force_x + force_t):
@@ -270,12 +277,13 @@ def wheel_contact(
     result[SEMI_AXIS_LATERAL] = b
     result[FRICTION] = friction
     result[SLIP_VELOCITY] = slip
-    result[ROLLING_RADIUS] = table.wheel_radius + found[3]
+    result[ROLLING_RADIUS] = radius
     result[WHEEL_POSITION] = found[2]
     result[RAIL_POSITION] = found[4]
     result[FORWARD_SHIFT] = arm_x
     result[CURVATURE_LATERAL] = found[6]
     result[LATERAL_VELOCITY] = v_t
+    result[SHEAR] = shear
     result[WHEEL_LEAD] = yawed_wheel.lead_on_wheel(angles[0], yaw, arm_x, arm_y, arm_z)
     f_y = cosine * force_t - sine * normal
     f_z = sine * force_t + cosine * normal

@@ -70,3 +70,32 @@ def lead_on_wheel(roll, yaw, arm_x, arm_y, arm_z):
     """
     sine = np.sin(yaw)
     return np.cos(yaw) * arm_x + sine * (np.cos(roll) * arm_y + np.sin(roll) * arm_z)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def relative_curvatures(axis, normal, radius, meridian, silhouette, rail_curvature):
+    """Relative curvature of wheel and rail in the contact plane, in 1/m: parts xx, xt and tt.
+
+    Parameters
+    ----------
+    axis : (x, y, z) of `wheel_axis`; normal : (y, z) of the contact's normal
+    radius : m, of the circle through the contact
+    meridian : 1/m, curvature of the wheel's profile, positive where it is convex
+    silhouette : 1/m, curvature of silhouette and rail seen along the rail
+    rail_curvature : 1/m, of the rail in plan, to the left positive
+
+    Notes
+    -----
+    The wheel's principal directions are the meridian, along the axis' part in the contact plane,
+    and the circle. Seen along the rail the tensor K shows K_tt - K_xt^2 / K_xx, its curvature in
+    the direction in which the wheel's surface turns away least.
+    """
+    n_y, n_z = normal
+    e_x, e_t = axis[0], n_z * axis[1] - n_y * axis[2]
+    size = np.sqrt(e_x * e_x + e_t * e_t)
+    sine, cosine = e_x / size, e_t / size
+    circle = size / radius
+    along = circle * cosine * cosine + meridian * sine * sine
+    mixed = (meridian - circle) * sine * cosine
+    across = silhouette + mixed * mixed / along
+    return along - n_y * rail_curvature, mixed, across
