@@ -7,12 +7,16 @@ forward, o outwards (field side), d downwards; yaw gamma > 0 turns the heading o
 flange contact; roll > 0 lowers the outer side, about the profile's origin.
 
 Along the wheel the gap G of the two curves is averaged with the weights
-exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the mean position stands for the
-centre of the patch, the variance for the curvature that the patch sees, and the height at touch is
-the soft minimum of the gap, -epsilon log(integral of the weights): its slope in the shift is the
-mean contact angle. It equals the rigid height where the curvature sum is `REFERENCE_CURVATURE`
-(1/m); elsewhere it differs by (epsilon / 2) log of the ratio. `epsilon` belongs to a load: a Hertz
-pressure whose patch closes a gap h at its rim has the variance of epsilon = 2 h / 5.
+exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the variance stands for the
+curvature that the patch sees, and the soft minimum of the gap, -epsilon log(integral of the
+weights), makes a smooth height at touch, whose slope in the shift is the mean contact angle.
+
+That soft minimum lies (epsilon / 2) log(curvature) off the lowest gap, another amount on tread and
+root. So height and positions are those of epsilon and epsilon / 2, extrapolated to epsilon = 0
+(Richardson): exact where the curvature is constant, of second order in epsilon elsewhere. Between
+two places that touch at once the height rises above the lowest gap by at most 0.19 epsilon.
+`epsilon` belongs to a load: a Hertz pressure whose patch closes a gap h at its rim has the variance
+of epsilon = 2 h / 5.
 """
 
 import numpy as np
@@ -27,6 +31,8 @@ REFERENCE_CURVATURE = 10.0
     MERIDIAN_CURVATURE,
 ) = range(7)  # fmt: skip
 COLUMNS = 7
+# Sums over the weights, beside those named above.
+TOTAL, OFFSET, SQUARE, STEEPNESS = 0, 3, 4, 5
 STRIDE = 8  # columns per table entry, padded to whole vector registers
 
 
@@ -131,7 +137,7 @@ def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     """
     first, spacing = rail_grid
     best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
-    total = mean_wheel = mean_depth = mean_offset = square = steepness = bend = 0.0
+    sums = np.zeros((2, COLUMNS))
     lowest, centre, inverse = gap[best], curve[0, best], 1.0 / epsilon
     for i in range(gap.size):
         if gap[i] - lowest > MARGIN or curve[2, i] == 0.0:
@@ -139,26 +145,34 @@ def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
         exponent = (gap[i] - lowest) * curve[3, i] * inverse
         if exponent > CUT:
             continue
-        weight = curve[2, i] * np.exp(-exponent)
+        share = np.exp(-exponent)
         offset = curve[0, i] - centre
-        total += weight
-        mean_wheel += weight * wheel[0, i]
-        mean_depth += weight * wheel[1, i]
-        bend += weight * wheel[3, i]
-        mean_offset += weight * offset
-        square += weight * offset * offset
-        steepness += weight * curve[3, i]
-    mean_offset /= total
-    variance = max(square / total - mean_offset * mean_offset, spacing * spacing)
-    cosine = steepness / total
+        for scale in range(2):
+            # The squared share belongs to half the scale.
+            weight = curve[2, i] * (share if scale == 0 else share * share)
+            sums[scale, TOTAL] += weight
+            sums[scale, WHEEL_POSITION] += weight * wheel[0, i]
+            sums[scale, WHEEL_DEPTH] += weight * wheel[1, i]
+            sums[scale, OFFSET] += weight * offset
+            sums[scale, SQUARE] += weight * offset * offset
+            sums[scale, STEEPNESS] += weight * curve[3, i]
+            sums[scale, MERIDIAN_CURVATURE] += weight * wheel[3, i]
+    for scale in range(2):
+        for k in range(1, COLUMNS):
+            sums[scale, k] /= sums[scale, TOTAL]
+    mean = 2.0 * sums[1] - sums[0]
+    cosine = sums[0, STEEPNESS]
+    variance = max(sums[0, SQUARE] - sums[0, OFFSET] ** 2, spacing * spacing)
     width = np.sqrt(2.0 * np.pi * epsilon / REFERENCE_CURVATURE)
-    out[HEIGHT] = lowest - epsilon / cosine * np.log(total / width)
-    out[WHEEL_POSITION] = mean_wheel / total
-    out[WHEEL_DEPTH] = mean_depth / total
-    out[RAIL_POSITION] = shift + centre + mean_offset
+    soft = epsilon / cosine * np.log(sums[0, TOTAL] / width)
+    softer = epsilon / sums[1, STEEPNESS] * np.log(sums[1, TOTAL] / (width * np.sqrt(0.5)))
+    out[HEIGHT] = lowest - (softer - soft)
+    out[WHEEL_POSITION] = mean[WHEEL_POSITION]
+    out[WHEEL_DEPTH] = mean[WHEEL_DEPTH]
+    out[RAIL_POSITION] = shift + centre + mean[OFFSET]
     out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
     out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
-    out[MERIDIAN_CURVATURE] = bend / total
+    out[MERIDIAN_CURVATURE] = sums[0, MERIDIAN_CURVATURE]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
