@@ -116,6 +116,9 @@ STAGES: dict[str, tuple[str, ...]] = {
     "contact_geometry": (
         "contact_geometry",
         "bogie.wheel.radius",
+        "bogie.wheel.half_distance",
+        "bogie.half_wheelbase",
+        "track.radius",
         "measured.wheel",
         "measured.rail",
         "numerics.contact_geometry",

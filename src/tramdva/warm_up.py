@@ -19,9 +19,10 @@ def compile_kernels() -> None:
     with np.errstate(all="ignore"):
         _wheelset()
         _collocation()
-        contacts = _contacts()
+        for zones in (2, 3):
+            contacts = _contacts(zones)
+            _bogie(contacts)
         _wear(contacts.law)
-        _bogie(contacts)
 
 
 def _wheelset() -> None:
@@ -53,15 +54,15 @@ def _collocation() -> None:
     curve.correct(curve.predict(curve.start(hopf, 2, 4), 0.1))
 
 
-def _contacts() -> running.Contacts:
-    """Four wheels, with tread and flange, on the coarsest tables and patches that there can be."""
+def _contacts(zones: int) -> running.Contacts:
+    """Four wheels with a number of zones, on the coarsest tables and patches that there can be."""
     zone, *_ = geometry.contact_tables(
         profiles.tram_wheel(), profiles.grooved_rail(), 0.3, shift_range=(0.0, 1e-4),
         roll_limit=1e-3, yaw_limit=1e-3, yaw_nodes=2,
     )  # fmt: skip
     places = running.WheelPlaces(np.ones(4), np.array([1, 1, 2, 2]), np.ones(4), 0.0, 0.0, 1.0, 1.0)
     law = patch.contact_law(0.3, 0.4, 0.1, cells_along=2, strips=2)
-    return running.Contacts((zone, zone), law, places)
+    return running.Contacts(zones * (zone,), law, places)
 
 
 def _wear(law: patch.ContactLaw) -> None:

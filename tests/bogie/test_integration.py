@@ -191,7 +191,7 @@ def test_radius_deviation_moves_the_wheel_up(line, running):
     """A crest of 10 um at a very low frequency lifts the rim by 10 um."""
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     run = Run(damped)
-    crest = np.zeros((4, 2))
+    crest = np.zeros((4, len(damped.curve.contacts.tables)))
     crest[1] = 1e-5
     excitation = integration.no_excitation(run.basis, damped.curve.contacts)._replace(
         amplitude=crest

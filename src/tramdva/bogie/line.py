@@ -51,13 +51,15 @@ def contact_geometry(
     cfg : values of the stage
     wheel, rail : measured profiles; None: those of the parameters
     """
+    bogie, sizes = cfg["bogie"], cfg["bogie"]["wheel"]
     tables = running.zone_tables(
         ContactGeometry.model_validate(cfg["contact_geometry"]),
-        cfg["bogie"]["wheel"]["radius"],
+        sizes["radius"],
         cfg["numerics"]["shift_step"],
         cfg["numerics"]["yaw_nodes"],
         wheel,
         rail,
+        running.yaw_reach(cfg["track"]["radius"], bogie["half_wheelbase"], sizes["half_distance"]),
     )
     return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
 
@@ -151,7 +153,7 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     shares = np.linspace(0.0, 1.0, curvature_steps + 1)
     tracks = systems(line, None, shares)
     straight = equilibrium(tracks[0], resting_start(tracks[0]))
-    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks[1:], straight.state))
+    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks, straight.state))
 
 
 def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Running:

@@ -13,7 +13,7 @@ from tramdva.contact import fastsim, patch
 from tramdva.contact.geometry import ContactTable
 
 TABLE_FIELDS = ContactTable._fields
-ZONES = ("tread", "flange")
+ZONES = ("tread", "flange", "flank")
 _PLACES = ("lateral_position", "tape_circle", "rail", "speed")
 
 
