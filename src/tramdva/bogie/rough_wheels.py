@@ -2,9 +2,9 @@
 
 A wave of order n around a wheel comes to the rail with the angular frequency n V / r_0; all wheels
 that are out of round turn by s / r_0 and carry the wave in phase. So a wheel that rolls along its
-own rail at V_w counts as one of radius r_w = r_0 V_w / V. A contact that lies ahead of the wheel's
-centre by x_c meets the material point x_c / r_w further: the deviation there is
-r(V t / r_0 + x_c / r_w).
+own rail at V_w counts as one of radius r_w = r_0 V_w / V. A contact that lies ahead of the lowest
+point of its circle by x_c, along the wheel, meets the material point x_c / r_w further: the
+deviation there is r(V t / r_0 + x_c / r_w).
 """
 
 from typing import NamedTuple
@@ -65,9 +65,9 @@ def wheel_mask(wheels) -> np.ndarray:
 
 
 def contact_angles(bogie: RoughBogie, wheel_radius: float, speed: float) -> np.ndarray:
-    """Angle (4, zones) in rad by which the contacts lie ahead of the wheels' centres."""
-    shift = np.where(bogie.touching, bogie.results[..., patch.FORWARD_SHIFT], 0.0)
-    return shift / rolling_radius(bogie, wheel_radius, speed)[:, None]
+    """Angle (4, zones) in rad by which the contacts lie ahead of the wheels' lowest points."""
+    lead = np.where(bogie.touching, bogie.results[..., patch.WHEEL_LEAD], 0.0)
+    return lead / rolling_radius(bogie, wheel_radius, speed)[:, None]
 
 
 def rolling_radius(bogie: RoughBogie, wheel_radius: float, speed: float) -> np.ndarray:
@@ -117,7 +117,7 @@ def deviation_forces(
 def local_response(
     bogie: RoughBogie, angular_frequency: np.ndarray, source: np.ndarray
 ) -> np.ndarray:
-    """Complex amplitudes (f, 40) of the local variables of the contacts.
+    """Complex amplitudes (f, 44) of the local variables of the contacts.
 
     Parameters
     ----------
