@@ -205,7 +205,7 @@ def _table_yaw(system: System) -> float:
 
 def _needed_yaw(system: System, state: np.ndarray) -> float:
     """Largest yaw angle in rad of a wheel against its rail in a state."""
-    return max(running.headings(system.contacts, system.curvatures, system.local(state)))
+    return max(wheel_forces.headings(system.contacts, system.curvatures, system.local(state)))
 
 
 def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:
