@@ -58,7 +58,9 @@ def _bifurcation() -> None:
     steps = StepControl(0.1, 0.1, 0.1, max_points=2)
     hopf.hopf_curve(system, point, ("p", "q"), window, steps, direction=1, component=0)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
-    curve.correct(curve.predict(curve.start(point, 2, 4), 0.1))
+    start = curve.start(point, 2, 4)
+    curve.correct(curve.predict(start, 0.1))
+    curve.prepare(start)
 
 
 def _contacts(zones: int) -> wheel_forces.Contacts:
