@@ -64,15 +64,15 @@ BUDGET = {
     "curving_equilibrium": 22,
     "bogie_modes": 22,
     "curve_entry": 23,
-    "bogie_linearisation": 24,
-    "bogie_simulation": 23,
-    "wear": 9,
-    "evolution_tendency": 28,
-    "tendency_maps": 32,
+    "bogie_linearisation": 25,
+    "bogie_simulation": 18,
+    "wear": 8,
+    "evolution_tendency": 23,
+    "tendency_maps": 33,
     "wheelset_designs": 7,
-    "bogie_designs": 33,
-    "robustness_sample": 33,
-    "robust_tuning": 32,
+    "bogie_designs": 34,
+    "robustness_sample": 34,
+    "robust_tuning": 31,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 

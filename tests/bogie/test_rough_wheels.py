@@ -9,11 +9,11 @@ from tramdva.bogie import wheel_forces as running_module
 from tramdva.bogie.absorber_ports import port_modes, ports, receptances
 from tramdva.bogie.curving import linearise
 from tramdva.bogie.names import WHEELS
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.rough_wheels import (
     contact_angles,
     deviation_forces,
     local_response,
-    rough_bogie,
     wheel_mask,
 )
 from tramdva.bogie.stored import stored_bogie, variables

@@ -12,9 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie import wheel_forces
-from tramdva.bogie.curving import Equilibrium, System
 from tramdva.bogie.integration import Excitation, ModalContacts
-from tramdva.bogie.modal import modal_basis
 from tramdva.bogie.names import WHEELS
 from tramdva.contact import patch
 
@@ -26,7 +24,7 @@ class RoughBogie(NamedTuple):
     modal : integration.ModalContacts, the contacts in these modes
     curvatures : (3,) in 1/m per frame
     results : (4, zones, patch.RESULTS) of the contacts in equilibrium
-    sensitivity : running.RadiusSensitivity
+    sensitivity : wheel_forces.RadiusSensitivity
     rolling_speed : (4,) m/s, of each wheel along its rail
     """
 
@@ -41,22 +39,6 @@ class RoughBogie(NamedTuple):
     def touching(self) -> np.ndarray:
         """Whether the zones (4, zones) are in contact."""
         return self.results[..., patch.STATUS] == patch.CONTACT
-
-
-def rough_bogie(system: System, equilibrium: Equilibrium) -> RoughBogie:
-    """Linearise a vehicle at its equilibrium, radius deviations included."""
-    places = system.contacts.places
-    local = system.local(equilibrium.state)
-    curvature = system.curvatures[places.axle]
-    basis = modal_basis(system, equilibrium)
-    return RoughBogie(
-        basis.eigenvalue,
-        basis.contact,
-        system.curvatures,
-        equilibrium.results[..., : patch.RESULTS],
-        wheel_forces.radius_sensitivity(system.contacts, system.curvatures, local),
-        places.speed * (1.0 - curvature * places.lateral_position),
-    )
 
 
 def wheel_mask(wheels) -> np.ndarray:

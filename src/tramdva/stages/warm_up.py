@@ -9,7 +9,7 @@ from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
 from tramdva.wear.chart import CHART, WearChart
-from tramdva.wear.passages import ContactHistory, passages
+from tramdva.wear.passages import ContactHistory, passages, wear_orders
 from tramdva.wheelset import model
 
 # Only the types matter: the results are thrown away.
@@ -45,7 +45,7 @@ def _wheelset() -> None:
 
 
 def _bifurcation() -> None:
-    """Two Hopf points of x'' - (p + q) x' + x = 0 and one corrector step on an orbit near them."""
+    """Two Hopf points of x'' - (p + q) x' + x = 0 and an orbit near them: its mesh, a step."""
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     system = DynamicalSystem(
         rhs=lambda states, p: states @ turn.T + (p[0] + p[1]) * states,
@@ -58,9 +58,9 @@ def _bifurcation() -> None:
     steps = StepControl(0.1, 0.1, 0.1, max_points=2)
     hopf.hopf_curve(system, point, ("p", "q"), window, steps, direction=1, component=0)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
-    start = curve.start(point, 2, 4)
-    curve.correct(curve.predict(start, 0.1))
-    curve.prepare(start)
+    orbit = curve.start(point, 2, 4)
+    curve.prepare(orbit)
+    curve.correct(curve.predict(orbit, 0.1))
 
 
 def _contacts(zones: int) -> wheel_forces.Contacts:
@@ -80,7 +80,8 @@ def _wear(law: patch.ContactLaw) -> None:
     grid, numbers = law.grid, dict.fromkeys(WearChart._fields, 1.0)
     chart = WearChart(**numbers | {"method": CHART})
     moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
-    passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    found = passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    wear_orders(found.area, np.zeros(1), 1)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)
 
 
