@@ -15,9 +15,8 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from tramdva import config
-from tramdva.bogie import running
-from tramdva.contact import geometry, hertz, locus, yawed_wheel
+from tramdva.configuration.reading import load
+from tramdva.contact import geometry, hertz, locus, tables, yawed_wheel
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 HERTZ, ROWS = hertz.hertz_table(), np.zeros((geometry.WINDOW, locus.STRIDE))
@@ -118,12 +117,12 @@ def shares(contacts):
     return out, sum(c[3] * c[1] for c in contacts) / total
 
 
-def main(name: str, load: float) -> None:
+def main(name: str, force: float) -> None:
     """Print the differences per yaw angle."""
-    shape = config.load(CONFIG, overrides={"lines": [name]}).lines[name].contact_geometry
-    wheel, rail = running.parametric_wheel(shape.wheel), running.parametric_rail(shape.rail)
-    tables = running.zone_tables(shape, 0.3, yaw_limit=0.062)
-    print(f"{len(tables)} zones; differences to exact contacts at {load:g} N")
+    shape = load(CONFIG, overrides={"lines": [name]}).lines[name].contact_geometry
+    wheel, rail = tables.parametric_wheel(shape.wheel), tables.parametric_rail(shape.rail)
+    zones = tables.zone_tables(shape, 0.3, yaw_limit=0.062)
+    print(f"{len(zones)} zones; differences to exact contacts at {force:g} N")
     print("yaw/rad  contacts  height/um mean max  share/kN mean max  angle/deg mean max")
     for yaw in YAWS:
         fine = np.arange(0.5e-3, 10.5e-3, 1e-5)
@@ -138,8 +137,8 @@ def main(name: str, load: float) -> None:
             low = np.interp(shift, fine, lowest)
             if np.interp(shift, fine, angle) > np.radians(71.0):
                 break
-            z, one = loaded(lambda h, u=shift, f=found: exact(f, u, h), low, load)
-            y, two = loaded(lambda h, u=shift, g=yaw: tabulated(tables, u, h, g), low, load)
+            z, one = loaded(lambda h, u=shift, f=found: exact(f, u, h), low, force)
+            y, two = loaded(lambda h, u=shift, g=yaw: tabulated(zones, u, h, g), low, force)
             (a, mean), (b, other) = shares(one), shares(two)
             off.append((len(one), 1e6 * abs(z - y), 1e-3 * np.abs(a - b).max(),
                         np.degrees(abs(mean - other)), shift))  # fmt: skip

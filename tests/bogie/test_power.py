@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from curving_power import contact_power, steady_power
 
-from tramdva import config
-from tramdva.bogie import curve_entry
-from tramdva.bogie import line as bogie_line_module
-from tramdva.bogie.line import run_through, track_line
+from tramdva.bogie import ride as rides
+from tramdva.bogie.tram import changed, run_through, track_line
+from tramdva.configuration.uses import used_values
 from tramdva.contact import patch
-from tramdva.contact.measured_profile import measured_profile
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 CONFIG = Path(__file__).resolve().parents[2] / "config"
 SHARE = 1e-3  # of the power of friction
@@ -24,18 +24,10 @@ SHARE = 1e-3  # of the power of friction
 @pytest.fixture(scope="module")
 def worn(configuration):
     """Line with measured profiles in a canted curve, and its equilibria."""
-    shape = configuration.lines["worn-40m"].contact_geometry
-    profiles = {
-        kind: measured_profile(CONFIG / getattr(shape, kind).measured, kind,
-                               getattr(shape, kind).measured_noise)
-        for kind in ("wheel", "rail")
-    }  # fmt: skip
-    tables = bogie_line_module.contact_geometry(
-        config.stage(configuration, "worn-40m", "contact_geometry"), **profiles
+    tables = contact_geometry.compute(
+        used_values(configuration, "worn-40m", "contact_geometry"), lambda name: CONFIG / name
     )
-    line = bogie_line_module.bogie_line(
-        config.stage(configuration, "worn-40m", "curving_equilibrium"), tables
-    )
+    line = bogie_line(used_values(configuration, "worn-40m", "curving_equilibrium"), tables)
     return line, run_through(line, 4)
 
 
@@ -84,15 +76,15 @@ def test_slip_of_a_flange_is_the_attack_over_the_cosine(curving):
 def test_normal_forces_do_no_work_over_a_period_of_the_limit_cycle(line, running):
     """Self-excited vibration at a steeper friction: friction alone takes what the rails give."""
     steep = line._replace(friction=(*line.friction[:2], 0.8))
-    run = bogie_line_module.changed(steep, None, running)
-    route = curve_entry.Route(
+    run = changed(steep, None, running)
+    route = rides.Route(
         track_line(steep, 0.5 * steep.track.speed), steep.track.speed, steep.bogie.half_wheelbase,
         steep.track.gravity, (run.straight, run.curve),
         (run.straight_equilibrium, run.equilibrium),
     )  # fmt: skip
-    ride = curve_entry.ride(route, 14.0, 5e-4, 1, 1e-3)
+    ride = rides.ride(route, 14.0, 5e-4, 1, 1e-3)
     assert ride.status == "completed"
-    velocity = curve_entry.contact_point_velocity(0.3, ride.local)[1]
+    velocity = rides.contact_point_velocity(0.3, ride.local)[1]
     mean = velocity[-2000:].mean()
     starts = np.flatnonzero((velocity[:-1] < mean) & (velocity[1:] >= mean))
     first, last = starts[-41], starts[-1]  # whole periods

@@ -11,10 +11,17 @@ import pytest
 import yaml
 from scipy.linalg import eigh
 
+from tramdva.bogie import modes
 from tramdva.bogie.axle import rigid_offset
+from tramdva.bogie.curving import angle_of_attack, wheel_loads
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.parameters import Bogie
+from tramdva.bogie.tram import run_through
 from tramdva.bogie.vehicle import build_vehicle
+from tramdva.configuration.uses import used_values
+from tramdva.contact import patch
+from tramdva.stages import contact_geometry
+from tramdva.stages.bogie_sections import bogie_line
 
 REFERENCE = Path(__file__).parents[1] / "reference/bogie"
 VEHICLES = ("heavy_arms", "heavy_middle")
@@ -94,3 +101,118 @@ def test_damped_eigenvalues_to_300_hz_agree_with_exudyn(name, absorbers):
     found = found[np.argsort(found.imag)]
     assert found[expected.size].imag > 2.0 * np.pi * 300.0
     np.testing.assert_allclose(found[: expected.size], expected, rtol=1e-4)
+
+
+# Steady running in the curve. The reference has rails as exact circles, finite yaw, no rounding of
+# edges; of its laws the one closest to the project's is compared.
+
+
+@pytest.fixture(scope="module", params=VEHICLES)
+def in_curve(request, configuration):
+    """Name, and equilibria of the project's model with the parameters of the reference."""
+    values = parameters(request.param)
+    numerics = dict(used_values(configuration, "paper", "contact_geometry"))
+    numerics |= {key: values[key] for key in ("bogie", "contact_geometry")}
+    tables = contact_geometry.compute(numerics)
+    stage = dict(used_values(configuration, "paper", "curving_equilibrium"))
+    stage |= {key: values[key] for key in ("bogie", "contact_geometry", "track")}
+    stage["creep_force"] = {**stage["creep_force"], **values["creep_force"]}
+    line = bogie_line(stage, tables)
+    return request.param, run_through(line, 4)
+
+
+def reference_curving(name: str, quantity: str, structure="linear", **chosen) -> dict[str, float]:
+    """Values by wheel or axle."""
+    chosen = {"law": "fastsim", "curvature": "principal", "B": "0.7"} | chosen
+    found = {
+        row["wheel"]: float(row["value"])
+        for row in rows(f"curving_{name}.csv")
+        if row["structure"] == structure
+        and row["quantity"] == quantity
+        and all(row[key] == value for key, value in chosen.items())
+    }
+    assert found, quantity
+    return found
+
+
+def contact_results(running, column: int) -> dict[str, float]:
+    """A result of the contact of each wheel, the zone that carries it."""
+    results = running.equilibrium.results
+    zone = results[..., patch.NORMAL_FORCE].argmax(axis=1)
+    return {wheel: results[k, zone[k], column] for k, wheel in enumerate(WHEELS)}
+
+
+def test_the_reference_itself_does_no_work_along_normals(in_curve):
+    """Its contacts lie where the wheel's material moves along the rail's surface."""
+    name, _ = in_curve
+    for structure in ("linear", "nonlinear"):
+        velocity = reference_curving(name, "normal_velocity_m_s", structure)
+        assert max(map(abs, velocity.values())) < 1e-9
+        (power,) = reference_curving(name, "normal_power_W", structure).values()
+        (friction,) = reference_curving(name, "friction_power_W", structure).values()
+        assert abs(power) < 1e-6 * friction
+
+
+@pytest.mark.parametrize("structure", ["linear", "nonlinear"])
+def test_wheel_loads_agree_with_the_reference(in_curve, structure):
+    """Weights that move sideways over the wheels are 0.5 % of the moment, 0.2 % of a load."""
+    name, running = in_curve
+    found = wheel_loads(running.equilibrium)
+    for wheel, expected in reference_curving(name, "vertical_force_N", structure).items():
+        np.testing.assert_allclose(found[wheel], expected, rtol=3e-3, err_msg=wheel)
+
+
+def test_contact_angles_agree_with_the_reference(in_curve):
+    """The soft minimum of 8 um moves the contact by tens of um on a root of 16 mm: 0.3 degrees."""
+    name, running = in_curve
+    found = contact_results(running, patch.CONTACT_ANGLE)
+    for wheel, expected in reference_curving(name, "contact_angle_rad").items():
+        assert abs(found[wheel] - expected) < np.radians(0.3), wheel
+
+
+def test_angles_of_attack_agree_with_the_reference(in_curve):
+    """The axles stand 1.2 mm behind their frames, 5e-5 rad of the curve.
+
+    Add 2e-5 for the play by the soft minimum (tens of um on 1.7 m of wheelbase) and 1e-5 for a / R
+    instead of asin(a / R).
+    """
+    name, running = in_curve
+    expected = reference_curving(name, "angle_of_attack_rad")
+    found = angle_of_attack(running.curve, running.equilibrium)
+    for axle, value in zip(("front", "rear"), found, strict=True):
+        assert abs(value - expected[axle]) < 1e-4, axle
+
+
+def test_forward_shift_agrees_with_the_reference(in_curve):
+    """R tan(delta) tan(yaw) and its correction: 0.3 degrees at 40 degrees are 1.1 %."""
+    name, running = in_curve
+    found = contact_results(running, patch.FORWARD_SHIFT)
+    expected = reference_curving(name, "forward_shift_m")
+    for wheel in ("front_outer", "rear_inner"):  # on the root
+        np.testing.assert_allclose(found[wheel], expected[wheel], rtol=0.015, err_msg=wheel)
+
+
+def test_slip_agrees_with_the_reference(in_curve):
+    """V yaw / cos(delta): 0.3 degrees at 40 degrees are 0.4 %, angles of attack 0.3 %.
+
+    Each wheel has an angle of attack of its own: the rails below one axle are not parallel to each
+    other where the axle is not radial (a / (R +- 0.75 m), 3 % to either side).
+    """
+    name, running = in_curve
+    found = contact_results(running, patch.SLIP_VELOCITY)
+    for wheel, expected in reference_curving(name, "slip_velocity_m_s").items():
+        np.testing.assert_allclose(found[wheel], expected, rtol=0.01, err_msg=wheel)
+
+
+def test_growth_of_the_second_bending_mode_agrees_with_the_reference(in_curve):
+    """The soft minimum of 8 um is worth 0.13 1/s, tables and grid 0.05.
+
+    Without the skewed principal curvatures another 0.08 1/s are missing, see the reference's rows
+    of the silhouette; errors of opposite sign may meet.
+    """
+    name, running = in_curve
+    (growth,) = reference_curving(name, "growth_rate_1_s").values()
+    (frequency,) = reference_curving(name, "frequency_Hz").values()
+    found = modes.critical_oscillation(running.curve, running.equilibrium.state, (45.0, 65.0))
+    assert abs(found.growth_rate - growth) < 0.18
+    np.testing.assert_allclose(found.frequency, frequency, rtol=2e-3)

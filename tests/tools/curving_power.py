@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.wheel_forces import contact_forces
 from tramdva.bogie.names import AXLE_OF_WHEEL, WHEELS
+from tramdva.bogie.wheel_forces import contact_forces
 from tramdva.contact import patch
 
 

@@ -50,10 +50,14 @@ class Model(NamedTuple):
     wheels: list
 
 
-def _bushing(mbs, first, last, stiffness, damping):
+def _bushing(mbs, first, last, stiffness, damping, sag=0.0):
+    """Joint; `sag` (m) is the rise of its last marker at which it exerts no vertical force."""
     mbs.AddObject(
         items.ObjectConnectorRigidBodySpringDamper(
-            markerNumbers=[first, last], stiffness=stiffness, damping=damping
+            markerNumbers=[first, last],
+            stiffness=stiffness,
+            damping=damping,
+            offset=[0.0, 0.0, sag, 0.0, 0.0, 0.0],
         )
     )
 
@@ -79,7 +83,7 @@ def _rigid(mbs, x, y, z, mass, pitch, roll, yaw):
     return node
 
 
-def _add_car_and_frame(mbs, bogie, ground):
+def _add_car_and_frame(mbs, bogie, ground, gravity):
     own = []
     for name in ("car_body", "frame"):
         b = bogie[name]
@@ -104,12 +108,15 @@ def _add_car_and_frame(mbs, bogie, ground):
             )
             for node, name in ((frame, "frame"), (car, "car_body"))
         )
-        _bushing(mbs, first, last, six(spring["stiffness"]), six(spring["damping"]))
+        sag = 0.5 * bogie["car_body"]["mass"] * gravity / spring["stiffness"]["vertical"]
+        _bushing(mbs, first, last, six(spring["stiffness"]), six(spring["damping"]), sag)
     return car, frame
 
 
-def _add_primary(mbs, bogie, frame, axle):
+def _add_primary(mbs, bogie, frame, axle, gravity):
     spring = bogie["primary"]
+    weight = (bogie["car_body"]["mass"] + bogie["frame"]["mass"]) * gravity
+    sag = -0.25 * weight / spring["stiffness"]["vertical"]
     for side in SIDES:
         y = side * spring["lateral_position"]
         on_frame = at(axle.x, y, spring["height"] - bogie["frame"]["height"])
@@ -117,7 +124,7 @@ def _add_primary(mbs, bogie, frame, axle):
         last = marker(mbs, axle.node_at(y), axle.local(y, spring["height"]))
         stiffness = six(spring["stiffness"], pitch=spring["pitch_stiffness"])
         damping = six(spring["damping"], pitch=spring["pitch_damping"])
-        _bushing(mbs, first, last, stiffness, damping)
+        _bushing(mbs, first, last, stiffness, damping, sag)
 
 
 def _layer_matrices(layer, spin_rate):
@@ -222,10 +229,12 @@ def _add_absorber(mbs, absorber, axle, side):
     _coordinate_joint(mbs, (carrier, 4), (own, 0), absorber["c_T"], absorber["d_T"])
 
 
-def build(values, position, absorbers):
+def build(values, position, absorbers, gravity=0.0):
     """Build the vehicle with beam nodes at `position` (m); not yet assembled.
 
-    The axle's modal damping is one dense matrix over the nodes of a bridge.
+    Springs carry car body and frame without deflection at `gravity` (m/s^2): the parameters' places
+    are those of the loaded vehicle. The axle's modal damping is one dense matrix over the nodes of
+    a bridge.
     """
     bogie = values["bogie"]
     spin_rate = values["track"]["speed"] / bogie["wheel"]["radius"]
@@ -233,12 +242,12 @@ def build(values, position, absorbers):
     system = exu.SystemContainer()
     mbs = system.AddSystem()
     ground = mbs.AddObject(items.ObjectGround())
-    car, frame = _add_car_and_frame(mbs, bogie, ground)
+    car, frame = _add_car_and_frame(mbs, bogie, ground, gravity)
     axles, wheels = [], []
     for number, x in enumerate((bogie["half_wheelbase"], -bogie["half_wheelbase"])):
         axle = add_axle(mbs, bogie, x, position)
         axles.append(axle)
-        _add_primary(mbs, bogie, frame, axle)
+        _add_primary(mbs, bogie, frame, axle, gravity)
         mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=axle.nodes, dampingMatrix=damping))
         for side in SIDES:
             wheels.append(_add_wheel(mbs, bogie, side, axle, number, spin_rate))
