@@ -112,7 +112,7 @@ def in_curve(request, configuration):
     """Name, and equilibria of the project's model with the parameters of the reference."""
     values = parameters(request.param)
     numerics = dict(used_values(configuration, "paper", "contact_geometry"))
-    numerics |= {key: values[key] for key in ("bogie", "contact_geometry")}
+    numerics |= {key: values[key] for key in ("bogie", "contact_geometry", "track")}
     tables = contact_geometry.compute(numerics)
     stage = dict(used_values(configuration, "paper", "curving_equilibrium"))
     stage |= {key: values[key] for key in ("bogie", "contact_geometry", "track")}
@@ -171,16 +171,19 @@ def test_contact_angles_agree_with_the_reference(in_curve):
 
 
 def test_angles_of_attack_agree_with_the_reference(in_curve):
-    """The axles stand 1.2 mm behind their frames, 5e-5 rad of the curve.
+    """Against the rail abreast of the axle, which stands behind its frame.
 
-    Add 2e-5 for the play by the soft minimum (tens of um on 1.7 m of wheelbase) and 1e-5 for a / R
-    instead of asin(a / R).
+    The play by the soft minimum (tens of um on 1.7 m of wheelbase) and a / R instead of asin(a / R)
+    remain.
     """
     name, running = in_curve
     expected = reference_curving(name, "angle_of_attack_rad")
+    state, names = running.equilibrium.state, running.curve.vehicle.names
+    curvature = running.curve.curvatures[0]
     found = angle_of_attack(running.curve, running.equilibrium)
     for axle, value in zip(("front", "rear"), found, strict=True):
-        assert abs(value - expected[axle]) < 1e-4, axle
+        ahead = state[names.index(f"{axle}_axle x")]
+        assert abs(value + curvature * ahead - expected[axle]) < 1e-4, axle
 
 
 def test_forward_shift_agrees_with_the_reference(in_curve):
