@@ -1,5 +1,6 @@
 """The bogie of a line on its track: absorber designs, systems, equilibria."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -68,7 +69,7 @@ def contacts_of(line: BogieLine) -> wheel_forces.Contacts:
     return wheel_forces.Contacts(line.tables, law, places)
 
 
-def systems(line: BogieLine, design: BogieAbsorber | None, shares) -> list[System]:
+def systems(line: BogieLine, design: BogieAbsorber | None, shares: Iterable[float]) -> list[System]:
     """The vehicle on tracks with shares of the full curvature and cant."""
     vehicle = build_vehicle(
         line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
