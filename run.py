@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Set tramdva up once and run it; needs Python 3.11 and nothing else.
+"""Set tramdva up once and run it; needs Python 3.11, 3.12 or 3.13 and nothing else.
 
     python3 run.py [...]         all figures and numbers; arguments go to snakemake
     python3 run.py test [...]    the tests; arguments go to pytest
@@ -31,7 +31,7 @@ VENV = ROOT / ".venv"
 BIN = VENV / "bin"
 STAMP = VENV / "tramdva-stamp"
 LOCK = ROOT / "requirements.lock"
-PYTHON = (3, 11)
+PYTHONS = ((3, 11), (3, 12), (3, 13))  # as in pyproject.toml
 
 
 class SetupError(Exception):
@@ -43,8 +43,8 @@ def main(arguments: list[str]) -> None:
     if arguments[:1] in (["-h"], ["--help"], ["help"]):
         print(__doc__)
         return
-    if sys.version_info[:2] != PYTHON:
-        become_right_python(arguments)
+    if sys.version_info[:2] not in PYTHONS:
+        become_supported_python(arguments)
     os.chdir(ROOT)
     if not is_set_up():
         set_up()
@@ -105,13 +105,41 @@ def become(program: list[str]) -> None:
     os.execve(BIN / program[0], program, environment)
 
 
-def become_right_python(arguments: list[str]) -> None:
-    """Start again with Python 3.11 where another version was called."""
-    wanted = ".".join(map(str, PYTHON))
-    other = shutil.which(f"python{wanted}")
+def become_supported_python(arguments: list[str]) -> None:
+    """Start again with a supported Python where another version was called."""
+    other = supported_python()
     if other is None:
-        raise SetupError(f"tramdva needs Python {wanted}; this is {sys.version.split()[0]}")
+        names = [dotted(version) for version in PYTHONS]
+        raise SetupError(
+            f"tramdva needs Python {', '.join(names[:-1])} or {names[-1]}; "
+            f"this is {sys.version.split()[0]} and there is no other on PATH: "
+            f"install one, for example python{names[-1]}, and run this again"
+        )
     os.execv(other, [other, str(Path(__file__).resolve()), *arguments])
+
+
+def supported_python() -> str | None:
+    """Find a Python that is supported: that of the environment, else the newest of a folder."""
+    for folder in [str(BIN), *os.environ.get("PATH", os.defpath).split(os.pathsep)]:
+        for version in reversed(PYTHONS):
+            path = shutil.which(f"python{dotted(version)}", path=folder)
+            if path is not None and is_python(path, version):
+                return path
+    return None
+
+
+def is_python(path: str | Path, version: tuple[int, ...], module: str = "sys") -> bool:
+    """Tell whether a program is a Python of a version and has a module; a shim need not be one."""
+    check = f"import {module}, sys; sys.exit(sys.version_info[:2] != {tuple(version)})"
+    try:
+        return subprocess.run([path, "-c", check], capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+def dotted(version: tuple[int, ...]) -> str:
+    """Write a version of Python, such as 3.11."""
+    return ".".join(map(str, version))
 
 
 def stamp() -> str:
@@ -129,7 +157,8 @@ def is_set_up() -> bool:
 
 def set_up() -> None:
     """Make the environment; the stamp comes last, so that a half-made one is recognised."""
-    print("tramdva: setting up .venv (once, about two minutes)", flush=True)
+    version = dotted(sys.version_info[:2])
+    print(f"tramdva: setting up .venv for Python {version} (once, about two minutes)", flush=True)
     STAMP.unlink(missing_ok=True)
     if not works():
         make_venv()
@@ -152,18 +181,14 @@ def compile_kernels() -> None:
 
 
 def works() -> bool:
-    """Tell whether there is an environment with the right Python and pip."""
-    version = f"import pip, sys; sys.exit(sys.version_info[:2] != {PYTHON})"
-    try:
-        return subprocess.run([BIN / "python", "-c", version], capture_output=True).returncode == 0
-    except OSError:
-        return False
+    """Tell whether there is an environment with this version of Python and pip."""
+    return is_python(BIN / "python", sys.version_info[:2], "pip")
 
 
 def make_venv() -> None:
     """Make an empty environment, after installing what Debian leaves out of Python."""
     if importlib.util.find_spec("ensurepip") is None:
-        install_debian_package("python3-venv")
+        install_debian_package(f"python{dotted(sys.version_info[:2])}-venv")
     run([sys.executable, "-m", "venv", "--clear", str(VENV)])
 
 

@@ -11,8 +11,7 @@ from pathlib import Path
 
 from scipy.optimize import brentq
 
-from tramdva.bogie import modes
-from tramdva.bogie import tram as bogie_line
+from tramdva.bogie import modes, tram
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
 from tramdva.stages import contact_geometry
@@ -27,13 +26,13 @@ def main(name: str, target: float) -> None:
     tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
     cfg = used_values(configuration, name, "bogie_modes")
     line = bogie_line(cfg, tables)
-    known = bogie_line.run_through(line, cfg["numerics"]["curvature_steps"])
+    known = tram.run_through(line, cfg["numerics"]["curvature_steps"])
     limits = (cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"])
 
     def critical(ratio: float) -> modes.Critical:
         axle = line.bogie.axle.model_copy(update={"damping_ratio": ratio})
         bogie = line.bogie.model_copy(update={"axle": axle})
-        run = bogie_line.changed(line._replace(bogie=bogie), None, known)
+        run = tram.changed(line._replace(bogie=bogie), None, known)
         return modes.critical_oscillation(run.curve, run.equilibrium.state, limits)
 
     ratio = brentq(lambda r: critical(r).growth_rate - target, 0.02, 0.06, xtol=1e-7)

@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 from numba import njit
 
-from tramdva.bogie import integration, modes, ride, wheel_forces
-from tramdva.bogie import tram as bogie_line
+from tramdva.bogie import integration, modes, ride, tram, wheel_forces
 from tramdva.bogie.modal import modal_basis
 from tramdva.bogie.tram import BogieLine, Running
 from tramdva.configuration.reading import load
@@ -58,7 +57,7 @@ def ride_cost(
 ) -> ride.Ride:
     """Ride into the curve as figure 9 does it."""
     route = ride.Route(
-        bogie_line.track_line(line, entry * line.track.speed),
+        tram.track_line(line, entry * line.track.speed),
         line.track.speed,
         line.bogie.half_wheelbase,
         line.track.gravity,
@@ -99,7 +98,7 @@ def main(name: str) -> None:
     tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
     cfg = used_values(configuration, name, "curve_entry")
     line = bogie_line(cfg, tables)
-    known = bogie_line.run_through(line, cfg["numerics"]["curvature_steps"])
+    known = tram.run_through(line, cfg["numerics"]["curvature_steps"])
     limits = (30.0, 200.0)
     per_call = contact_cost(known)
     numerics, study = cfg["numerics"], cfg["study"]

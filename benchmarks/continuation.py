@@ -1,13 +1,16 @@
-"""Time of limit-cycle branches and Hopf curves, beside AUTO where xpplab is installed.
+"""Time of limit cycles and Hopf points, as ratios to AUTO in the same run.
 
-    python benchmarks/continuation.py
+    OMP_NUM_THREADS=1 AUTO_DIR=/path/to/auto-07p python benchmarks/continuation.py
 
 The system is the wheelset with the absorber c_T = 2e7 N/m, d_T = 7500 N s/m (six states): the
 branch of limit cycles between its two Hopf points with 50 mesh intervals of degree 4 and Floquet
 multipliers, and the Hopf curve in (c_A, c_T) with first Lyapunov coefficients. Times are CPU
-seconds in a warm process, the best of several runs. xpplab (`pip install xpplab`) drives the AUTO
-inside XPPAUT, whose right-hand side is interpreted; compiled AUTO-07p was measured elsewhere at
-0.31 s for 132 orbits and 0.07 s for 412 Hopf points.
+seconds in a warm process, the best of several runs; only ratios of one run mean anything.
+
+Beside it stand, where they are installed: AUTO-07p, compiled, with derivatives by differences and
+with those of the equations (`auto_07p.py` says how to get it); and the AUTO inside XPPAUT, whose
+right-hand side is interpreted (`pip install xpplab`). Both take steps of the same largest length,
+and both keep the rolling speed of one equilibrium, where ours solves that equilibrium.
 """
 
 import resource
@@ -17,6 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import auto_07p
 import numpy as np
 import yaml
 
@@ -28,7 +32,6 @@ from tramdva.wheelset.hopf import rim_velocity, solve_hopf_point
 
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 5
-AUTO_07P = {"limit cycles": 0.31 / 132, "Hopf curve": 0.07 / 412}
 
 
 def line() -> model.WheelsetParameters:
@@ -143,18 +146,24 @@ def _auto_tasks(auto: Any) -> dict[str, tuple[float, int]]:
 
 
 def main() -> None:
-    """Print a table: seconds, points, time per point, ratios to AUTO."""
+    """Print for each task its time, and per point and for the whole the ratios to each AUTO."""
     values = line()
-    here, there = ours(values), auto_of_xppaut(values)
+    here = ours(values)
+    partners = {
+        "AUTO-07p, differences": auto_07p.tasks(values, jacobian=False),
+        "AUTO-07p, derivatives given": auto_07p.tasks(values, jacobian=True),
+        "AUTO of XPPAUT": auto_of_xppaut(values),
+    }
     for task, (seconds, points) in here.items():
         each = seconds / points
-        print(f"{task}: {seconds:.3f} s CPU for {points} points, {1e3 * each:.2f} ms each")
-        print(
-            f"  per point over compiled AUTO-07p (measured elsewhere): {each / AUTO_07P[task]:.2f}"
-        )
-        if task in there:
-            other, count = there[task]
-            print(f"  per point over the AUTO of XPPAUT, same run: {each / (other / count):.2f}")
+        print(f"{task}: {seconds:.3f} s CPU for {points} points, {1e3 * each:.3f} ms each")
+        for name, there in partners.items():
+            if task in there:
+                other, count = there[task]
+                print(
+                    f"  over {name} ({count} points): {each / (other / count):.2f} per point, "
+                    f"{seconds / other:.2f} in all"
+                )
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"largest memory of the process: {peak:.0f} MB")
 

@@ -16,10 +16,10 @@ from tramdva import results
 from tramdva.bogie.stored import stored_bogie
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import USES, used_values
-from tramdva.evolution.tendency import Wearing, linear_wear_response, wear_sensitivity
+from tramdva.evolution.tendency import linear_wear_response, wear_sensitivity
 from tramdva.running.numba_cache import use_numba_cache
-from tramdva.stages import bogie_simulation
-from tramdva.stages.wear_sections import wear_chart, wear_grid
+from tramdva.stages import bogie_simulation, wear
+from tramdva.stages.wheels_out_of_round import wearing
 
 use_numba_cache()
 
@@ -30,10 +30,10 @@ ORDER = 26
 START = """
 import time
 begin = time.process_time()
-from tramdva.provenance import use_numba_cache
+from tramdva.running.numba_cache import use_numba_cache
 use_numba_cache()
-from tramdva import job, results
-from tramdva.{module}
+from tramdva import results
+from tramdva.stages import {stage}
 print(time.process_time() - begin)
 """
 
@@ -56,9 +56,9 @@ def first_call(call) -> float:
     return time.process_time() - begin
 
 
-def start_of_job(module: str) -> float:
+def start_of_job(stage: str) -> float:
     """CPU seconds that the imports of a job take in a fresh process."""
-    program = [sys.executable, "-c", START.format(module=module)]
+    program = [sys.executable, "-c", START.format(stage=stage)]
     ended = subprocess.run(program, capture_output=True, text=True, check=True)
     return float(ended.stdout)
 
@@ -73,26 +73,25 @@ def main(folder: Path) -> None:
     def simulate() -> dict:
         return bogie_simulation.compute(values["bogie_simulation"], ORDER, tables, linear)
 
-    def wear() -> dict:
+    def wear_out() -> dict:
         return wear.compute(values["wear"], history)
 
-    print(f"imports: simulation {start_of_job('bogie import simulation_stage'):.2f} s CPU, "
-          f"wear {start_of_job('evolution_stages import wear'):.2f} s CPU")  # fmt: skip
+    print(f"imports: simulation {start_of_job('bogie_simulation'):.2f} s CPU, "
+          f"wear {start_of_job('wear'):.2f} s CPU")  # fmt: skip
     kernels = first_call(simulate)
     history = simulate()
-    kernels_of_wear = first_call(wear)
-    simulation, worn = seconds(simulate), seconds(wear)
+    kernels_of_wear = first_call(wear_out)
+    simulation, worn = seconds(simulate), seconds(wear_out)
     print(f"kernels: simulation {kernels - simulation:.2f} s, wear {kernels_of_wear - worn:.2f} s")
     print(f"order {ORDER}: simulation {simulation:.3f} s, wear {worn:.3f} s")
     reading = seconds(lambda: results.read(folder / "contact_geometry.nc"))
     print(f"reading the contact tables: {reading:.3f} s")
     cfg, stored = values["evolution_tendency"], stored_bogie(linear)
     frequency = np.linspace(2.0, 150.0, cfg["numerics"]["frequency_points"])
-    chart, grid = wear_chart(cfg), wear_grid(cfg)
     wheels = cfg["out_of_roundness"]["wheels"]
 
     def curve() -> np.ndarray:
-        found = wear_sensitivity(stored.bogie, stored.law, Wearing(chart, grid, tuple(wheels)))
+        found = wear_sensitivity(stored.bogie, stored.law, wearing(cfg))
         return linear_wear_response(
             stored.bogie, found, frequency, stored.places.speed, stored.wheel_radius, wheels
         )

@@ -10,7 +10,7 @@ async function inflated(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// The inverse of tramdva.packing.pack: numbers in their order, the last dimension fastest.
+// The inverse of tramdva.report.packed_arrays.pack: numbers in their order, the last dimension fastest.
 async function unpacked(packed) {
   const planes = await inflated(packed.data);
   const count = planes.length / 2;

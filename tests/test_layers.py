@@ -1,10 +1,14 @@
-"""Who knows whom, and what a module may do."""
+"""Who knows whom: packages, not modules; and how much of the model each stage reaches."""
 
 import ast
 import re
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from tramdva.running.code_hash import reached_modules
+from tramdva.variables.registry import STAGES
 
 PACKAGE = Path(__file__).resolve().parents[1] / "src/tramdva"
 MODULES = {
@@ -12,197 +16,196 @@ MODULES = {
     for path in sorted(PACKAGE.rglob("*.py"))
 }
 
-# Lower layers first: a module imports only from layers below its own, or from its own.
-LAYERS = [
-    {
-        "bifurcation.system",
-        "creep_force",
-        "quantities",
-        "bogie_parameters",
-        "out_of_roundness",
-        "design_grid",
-    },
-    {"bifurcation"},
-    {"wheelset"},
-    {"stability"},
-    {"self_excitation"},
-    {"critical_absorber"},
-    {"sustained_vibration", "absorber"},
-    {"wheelset_designs"},
-    {"contact"},
-    {"wear"},
-    {"wear_derivative", "wear_history"},
-    {"bogie"},
-    {"evolution"},
-    {"evolution_stages"},
-    {"attached_tendency"},
-    {"tendency_maps", "bogie_designs", "robustness_sample"},
-    {"robust_criterion"},
-    {"robust_tuning"},
-    {"warm_up"},
-]
-# What the pipeline uses around the model, and what each may know.
-AROUND = {
-    "__init__": set(),
-    "parameters": {
-        "bogie_parameters",
-        "bogie_study",
-        "design_sheet_study",
-        "evolution_study",
-        "quantities",
-    },
-    "bogie_study": {"quantities"},
-    "evolution_study": {"bogie_study", "quantities"},
-    "design_sheet_study": {"quantities"},
-    "result_variables": set(),
-    "wheelset_variables": {"result_variables"},
-    "bogie_variables": {"result_variables"},
-    "evolution_variables": {"bogie_variables", "result_variables"},
-    "design_variables": {
-        "bogie_variables",
-        "evolution_variables",
-        "result_variables",
-        "wheelset_variables",
-    },
-    "design_sheet_variables": {"bogie_variables", "result_variables"},
-    "registry": {
-        "bogie_variables",
-        "design_sheet_variables",
-        "design_variables",
-        "evolution_variables",
-        "result_variables",
-        "wheelset_variables",
-    },
-    "strict_yaml": set(),
-    "provenance": set(),
-    "supervision": set(),
-    "job": {"supervision"},
-    "schema": {"parameters"},
-    "slips": {"parameters", "schema"},
-    "measured_files": {"contact.measured_profile", "out_of_roundness", "parameters"},
-    "config": {
-        "bogie_parameters",
-        "measured_files",
-        "parameters",
-        "schema",
-        "slips",
-        "strict_yaml",
-    },
-    "results": {"registry", "result_variables", "supervision"},
-    "inventory": {"config", "provenance", "results", "supervision"},
-    "figures": {"results"},
-    "tables": {"results"},
-    "packing": set(),
-    "web_plots": set(),
-    "web_page": {"packing"},
-    "sheet": set(),
-    "sheet_page": {"sheet"},
-    "run_record": set(),
-    "crate": {"results", "run_record"},
-    "archive": {"crate", "results", "run_record"},
+# What each package may know. Those of the model first, lower ones before higher ones.
+MODEL = {
+    "bifurcation": set(),
+    "track": set(),
+    "contact": set(),
+    "wheelset": {"contact", "bifurcation"},
+    "bogie": {"contact", "track", "bifurcation"},
+    "wear": {"contact"},
+    "evolution": {"bogie", "wear", "contact"},
+    "robustness": {"bogie", "evolution"},
+    "route": {"evolution"},
+    "identification": {"wheelset", "bogie"},
 }
-READ_MEASUREMENTS = {"contact.measured_profile", "out_of_roundness"}
+AROUND = {
+    "quantities": set(),
+    "running": set(),
+    "variables": set(),
+    "stages": {*MODEL, "variables"},
+    "configuration": {"quantities"},
+    "results": {"variables", "running"},
+    "report": {"results", "running"},
+    "record": {"configuration", "results", "running"},
+}
+KNOWS = MODEL | AROUND
+AT_THE_ROOT = {"__init__", "quantities", "results"}
+PARAMETERS = {module for module in MODULES if module.endswith(".parameters")}
+READ_MEASUREMENTS = {"contact.measured_profile", "evolution.out_of_roundness"}
 TOUCH_THE_DISK = {
     *READ_MEASUREMENTS,
-    "figures",
-    "tables",
-    "web_page",
-    "config",
-    "measured_files",
-    "strict_yaml",
-    "schema",
-    "results",
-    "provenance",
-    "job",
-    "supervision",
-    "inventory",
-    "run_record",
-    "crate",
-    "archive",
+    *(m for m in MODULES if m.split(".")[0] in ("configuration", "running", "record", "results")),
+    "report.figures",
+    "report.tables",
+    "report.explorer_page",
 }
+# Modules of the model that a stage reaches; each one more is one more whose edit reruns it.
+BUDGET = {
+    "stability_map": 4,
+    "hopf_points": 7,
+    "limit_cycles": 11,
+    "hopf_curves": 9,
+    "critical_hopf_curve": 9,
+    "cycle_amplitudes": 13,
+    "absorber_tuning": 11,
+    "frequency_response": 5,
+    "contact_geometry": 6,
+    "curving_equilibrium": 22,
+    "bogie_modes": 22,
+    "curve_entry": 23,
+    "bogie_linearisation": 24,
+    "bogie_simulation": 23,
+    "wear": 8,
+    "evolution_tendency": 28,
+    "tendency_maps": 32,
+    "wheelset_designs": 5,
+    "bogie_designs": 33,
+    "robustness_sample": 33,
+    "robust_tuning": 32,
+}
+LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 
 
-def layer_of(module: str) -> int | None:
-    """Number of the layer that names the module or, most closely, its package."""
-    parts = module.split(".")
-    for end in range(len(parts), 0, -1):
-        for number, layer in enumerate(LAYERS):
-            if ".".join(parts[:end]) in layer:
-                return number
-    return None
+def package_of(module: str) -> str:
+    return module.split(".")[0]
 
 
-def imported(path: Path) -> set[str]:
-    """Absolute names of what a file imports; the modules of tramdva without the prefix."""
+def tree(module: str) -> ast.Module:
+    return ast.parse(MODULES[module].read_text(encoding="utf-8"))
+
+
+def imported(module: str) -> set[str]:
+    """Absolute names of what a module imports, wherever in it."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree(module)):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path}: relative import in line {node.lineno}"
+            assert node.level == 0, f"{module}: relative import in line {node.lineno}"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
     return names
 
 
-def own_imports(path: Path) -> set[str]:
-    names = {n.removeprefix("tramdva.") for n in imported(path) if n.startswith("tramdva.")}
+def own_imports(module: str) -> set[str]:
+    """Modules of tramdva that a module imports."""
+    names = {n.removeprefix("tramdva.") for n in imported(module) if n.startswith("tramdva.")}
     return {n if n in MODULES else n.rpartition(".")[0] for n in names}
 
 
-MODEL = {module: path for module, path in MODULES.items() if module not in AROUND}
+def of_packages(packages) -> list[str]:
+    return [module for module in MODULES if package_of(module) in packages]
 
 
-@pytest.mark.parametrize("module", MODEL)
-def test_model_knows_lower_layers_only(module: str) -> None:
-    number = layer_of(module)
-    assert number is not None, f"{module} belongs to no layer"
-    for other in own_imports(MODEL[module]):
-        below = layer_of(other)
-        assert below is not None, f"{module} must not know {other}"
-        assert below <= number, f"{module} must not know {other}"
+def test_every_module_is_in_a_known_package() -> None:
+    top = {path.stem for path in PACKAGE.glob("*.py")}
+
+    assert top == AT_THE_ROOT
+    assert {package_of(module) for module in MODULES} - {"__init__"} <= set(KNOWS)
 
 
-@pytest.mark.parametrize("module", AROUND)
-def test_what_is_around_the_model_does_not_know_it(module: str) -> None:
-    assert own_imports(MODULES[module]) <= AROUND[module]
+def test_packages_make_no_circle() -> None:
+    assert list(TopologicalSorter(KNOWS).static_order())
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_packages_know_those_below_them_only(module: str) -> None:
+    own = package_of(module)
+    known = KNOWS.get(own, set()) | {own}
+    for other in own_imports(module):
+        to_parameters = other in PARAMETERS and own == "configuration"
+        from_parameters = other == "quantities" and module in PARAMETERS
+        measured = module == "configuration.measured_files" and other in READ_MEASUREMENTS
+        allowed = package_of(other) in known or to_parameters or from_parameters or measured
+        assert allowed, f"{module} must not know {other}"
+
+
+def test_modules_make_no_circle() -> None:
+    try:
+        TopologicalSorter({module: own_imports(module) for module in MODULES}).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+
+
+@pytest.mark.parametrize("module", sorted(PARAMETERS))
+def test_parameters_know_what_a_parameter_is_and_no_numbers_of_arrays(module: str) -> None:
+    tops = {name.partition(".")[0] for name in imported(module)}
+
+    assert own_imports(module) == {"quantities"}
+    assert not tops & {"numpy", "scipy", "numba"}
+
+
+@pytest.mark.parametrize("module", of_packages(["variables"]))
+def test_descriptions_of_a_file_concern_no_other(module: str) -> None:
+    if module != "variables.registry":
+        assert not own_imports(module) & {f"variables.{stage}" for stage in STAGES}
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_stages_do_not_call_each_other(stage: str) -> None:
+    others = own_imports(f"stages.{stage}")
+
+    assert not others & {f"stages.{other}" for other in STAGES}
+    assert {o for o in others if package_of(o) == "variables"} <= {
+        f"variables.{stage}",
+        "variables.arrays",
+        "variables.shared",
+    }
+
+
+@pytest.mark.parametrize("module", of_packages(MODEL))
+def test_only_stages_know_the_configuration(module: str) -> None:
+    for node in ast.walk(tree(module)):
+        if isinstance(node, ast.arguments):
+            names = [a.arg for a in (*node.posonlyargs, *node.args, *node.kwonlyargs)]
+            assert "cfg" not in names, f"{module}: line {node.args[0].lineno}"
 
 
 def test_bifurcation_knows_nothing_about_trams() -> None:
     words = re.compile(r"wheel|absorber|rail|creep|c_A|c_T|d_T", re.IGNORECASE)
-    for module, path in MODULES.items():
-        if module.startswith("bifurcation"):
-            nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-            names = {
-                getattr(n, field, "") for n in nodes for field in ("id", "attr", "arg", "name")
-            }
-            assert not [name for name in names if words.search(str(name))], module
+    for module in of_packages(["bifurcation"]):
+        nodes = list(ast.walk(tree(module)))
+        names = {getattr(n, field, "") for n in nodes for field in ("id", "attr", "arg", "name")}
+        assert not [name for name in names if words.search(str(name))], module
 
 
 @pytest.mark.parametrize("module", MODULES)
 def test_library_does_not_know_snakemake(module: str) -> None:
-    assert not {n for n in imported(MODULES[module]) if n.partition(".")[0] == "snakemake"}
+    assert not {n for n in imported(module) if n.partition(".")[0] == "snakemake"}
 
 
-@pytest.mark.parametrize("module", sorted(set(MODEL) - READ_MEASUREMENTS))
+@pytest.mark.parametrize(
+    "module", sorted(set(of_packages([*MODEL, "stages", "variables"])) - READ_MEASUREMENTS)
+)
 def test_model_touches_no_files_and_draws_nothing(module: str) -> None:
-    tops = {name.partition(".")[0] for name in imported(MODEL[module])}
+    tops = {name.partition(".")[0] for name in imported(module)}
     assert not tops & {"pathlib", "os", "io", "netCDF4", "xarray", "yaml", "matplotlib", "pandas"}
     calls = {
         node.func.id
-        for node in ast.walk(ast.parse(MODEL[module].read_text(encoding="utf-8")))
+        for node in ast.walk(tree(module))
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
     }
     assert not calls & {"open", "print", "input", "exec", "eval"}
 
 
 def test_only_a_few_modules_touch_the_disk() -> None:
-    touching = {m for m, p in MODULES.items() if imported(p) & {"pathlib.Path", "os"}}
+    touching = {module for module in MODULES if imported(module) & {"pathlib.Path", "os"}}
     assert touching <= TOUCH_THE_DISK
 
 
 @pytest.mark.parametrize("module", [m for m, p in MODULES.items() if p.name == "__init__.py"])
 def test_packages_hold_a_docstring_only(module: str) -> None:
-    body = ast.parse(MODULES[module].read_text(encoding="utf-8")).body
+    body = tree(module).body
     assert len(body) == 1
     assert isinstance(body[0], ast.Expr)
     assert isinstance(body[0].value, ast.Constant)
@@ -211,17 +214,51 @@ def test_packages_hold_a_docstring_only(module: str) -> None:
 @pytest.mark.parametrize("module", MODULES)
 def test_modules_and_functions_are_short(module: str) -> None:
     text = MODULES[module].read_text(encoding="utf-8")
-    assert len(text.splitlines()) <= 500
+    assert len(text.splitlines()) <= LONGEST_MODULE
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef):
-            assert node.end_lineno - node.lineno < 100, f"{module}.{node.name}"
+            assert node.end_lineno - node.lineno < LONGEST_FUNCTION, f"{module}.{node.name}"
 
 
-def test_scripts_are_short_and_know_snakemake_at_their_end_only(root: Path) -> None:
-    for path in [*root.glob("workflow/scripts/*.py"), *root.glob("paper_figures/*.py")]:
-        text = path.read_text(encoding="utf-8")
-        before, main, _ = text.partition('if __name__ == "__main__":')
-        assert main, path
-        assert "snakemake" not in before, path
-        if path.parent.name == "scripts":
-            assert len(text.splitlines()) <= 40, path
+def reached_of_the_model(script: Path) -> set[str]:
+    """Modules of the model that a script reaches, without their packages."""
+    reached = {name.removeprefix("tramdva.") for name in reached_modules(script)}
+    return {module for module in reached if "." in module and package_of(module) in MODEL}
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_stages_reach_no_more_of_the_model_than_they_use(root: Path, stage: str) -> None:
+    reached = reached_of_the_model(root / f"workflow/scripts/{stage}.py")
+
+    assert len(reached) <= BUDGET[stage], sorted(reached)
+
+
+def test_no_stage_is_without_a_budget() -> None:
+    assert set(BUDGET) == set(STAGES)
+
+
+def test_figures_reach_nothing_of_the_model(root: Path) -> None:
+    for script in root.glob("paper_figures/*.py"):
+        assert not reached_of_the_model(script), script.name
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_scripts_of_stages_are_all_alike(root: Path, stage: str) -> None:
+    text = (root / f"workflow/scripts/{stage}.py").read_text(encoding="utf-8")
+
+    assert len(text.splitlines()) <= LONGEST_SCRIPT
+    assert text.endswith(
+        "\n\nfrom tramdva.results import make\n"
+        f"from tramdva.stages import {stage}\n\n"
+        f'if __name__ == "__main__":\n    make(snakemake, {stage})\n'
+    )
+
+
+def test_figures_know_snakemake_at_their_end_only(root: Path) -> None:
+    for path in root.glob("paper_figures/*.py"):
+        before, main, after = path.read_text(encoding="utf-8").partition(
+            'if __name__ == "__main__":'
+        )
+        assert "snakemake" not in before, path.name
+        assert main, path.name
+        assert after == "\n    run(main, snakemake)\n", path.name

@@ -58,7 +58,7 @@ def test_catalogue_of_workflows_finds_what_it_needs(root: Path) -> None:
     assert "workflow" in readme
     assert (root / "workflow/Snakefile").is_file()
     assert (root / "config/README.md").is_file()
-    assert not (root / "workflow/rules").exists()  # else it must hold files *.smk
+    assert {path.suffix for path in (root / "workflow/rules").iterdir()} == {".smk"}
     assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
     assert set(usage["mandatory-flags"]) == {"desc", "flags"}
     assert set(map(type, usage["software-stack-deployment"].values())) == {bool}

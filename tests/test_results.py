@@ -14,14 +14,8 @@ import netCDF4
 import numpy as np
 import pytest
 
-from tramdva import (
-    bogie_variables,
-    design_sheet_variables,
-    design_variables,
-    evolution_variables,
-    results,
-    wheelset_variables,
-)
+from tramdva import results
+from tramdva.variables.kinds import Stage, real
 from tramdva.variables.registry import STAGES
 
 LENGTHS = {"absorber": 3, "design": 4, "frequency": 7, "multiplier": 6}
@@ -46,7 +40,7 @@ def values_of(stage: str, length: int = 5) -> dict[str, np.ndarray]:
 
 
 def save(path: Path, values: dict, stage: str = "hopf_points") -> None:
-    results.save(path, stage, values, parameters={"b": 1.0, "a": [2]}, code="abc")
+    results.save(path, STAGES[stage], values, parameters={"b": 1.0, "a": [2]}, code="abc")
 
 
 @pytest.mark.parametrize("length", [0, 1, 5])
@@ -115,34 +109,6 @@ def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
     assert (tmp_path / "1").read_bytes() == (tmp_path / "2").read_bytes()
 
 
-def test_registry_names_all_it_needs() -> None:
-    for stage, description in STAGES.items():
-        for name, variable in description.variables.items():
-            assert variable.kind in ("real", "flag", "truth", "text"), (stage, name)
-            assert variable.long_name, (stage, name)
-            assert variable.unit, (stage, name)
-            assert bool(variable.meanings) == (variable.kind in ("flag", "truth")), (stage, name)
-        coordinates = {name for v in description.variables.values() for name in v.dimensions}
-        for name in coordinates & set(description.variables):
-            assert description.variables[name].dimensions == (name,), (stage, name)
-
-
-def test_each_stage_stands_in_one_table() -> None:
-    tables = (
-        wheelset_variables,
-        bogie_variables,
-        evolution_variables,
-        design_variables,
-        design_sheet_variables,
-    )
-
-    assert len(STAGES) == sum(len(table.STAGES) for table in tables)
-
-
-def test_statuses_keep_their_numbers() -> None:
-    assert wheelset_variables.STATUS[:3] == ("converged", "not_converged", "no_hopf_point")
-
-
 def test_flags_by_meaning_or_number(tmp_path: Path) -> None:
     values = values_of("hopf_points", 2)
     save(tmp_path / "a.nc", values | {"status": ["converged", "not_converged"]})
@@ -178,13 +144,19 @@ def test_wrong_values_are_refused(tmp_path: Path, change: dict, problem: str) ->
     assert not list(tmp_path.iterdir())
 
 
-def test_unknown_stage_and_nan_among_parameters(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="hopf_point: unknown stage"):
-        save(tmp_path / "x.nc", {}, "hopf_point")
+def test_file_of_an_unknown_stage_is_refused(tmp_path: Path) -> None:
+    stage = Stage("hopf_point", "One Hopf point", {"c_A": real("", "N/m", "stiffness")})
+    results.save(tmp_path / "x.nc", stage, {"c_A": 1.0}, parameters={}, code="")
+
+    with pytest.raises(ValueError, match="is no result of tramdva"):
+        results.read(tmp_path / "x.nc")
+
+
+def test_nan_among_parameters_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="not JSON compliant"):
         results.save(
             tmp_path / "x.nc",
-            "hopf_points",
+            STAGES["hopf_points"],
             values_of("hopf_points"),
             parameters={"a": float("nan")},
             code="",

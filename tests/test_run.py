@@ -2,13 +2,18 @@
 
 import ast
 import importlib.util
+import json
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import pytest
+
+OWN = "python" + ".".join(map(str, sys.version_info[:2]))  # name of this interpreter
 
 
 @pytest.fixture
@@ -46,8 +51,8 @@ def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleTy
         (["test"], ["pytest"]),
         (["test", "-k", "hopf"], ["pytest", "-k", "hopf"]),
         (["report"], ["snakemake", "--report", "report.html"]),
-        (["crate", "-j1"], ["python", "-m", "tramdva.crate", "-j1"]),
-        (["archive"], ["python", "-m", "tramdva.archive"]),
+        (["crate", "-j1"], ["python", "-m", "tramdva.record.crate", "-j1"]),
+        (["archive"], ["python", "-m", "tramdva.record.archive"]),
         (["docs", "-q"], ["sphinx-build", "-W", "--keep-going", "-q", "docs", "docs/_build/html"]),
         (["results/paper/test"], ["snakemake", "-j2", "results/paper/test"]),
     ],
@@ -191,7 +196,7 @@ def test_missing_module_venv_is_told_in_a_line(
 
     assert str(error.value) == (
         "Python's module venv is missing; run: "
-        "sudo sh -c 'apt-get update && apt-get install -y python3-venv'"
+        f"sudo sh -c 'apt-get update && apt-get install -y {OWN}-venv'"
     )
 
 
@@ -206,16 +211,108 @@ def test_missing_module_venv_is_installed_as_root(
 
     run.make_venv()
 
-    assert "install -y python3-venv" in ran[0][-1]
+    assert f"install -y {OWN}-venv" in ran[0][-1]
     assert ran[1][1:3] == ["-m", "venv"]
 
 
-def test_wrong_python_is_told_in_a_line(run: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run, "PYTHON", (3, 99))
-    monkeypatch.setattr(run.shutil, "which", lambda name: None)
+def pretend_old(run: ModuleType, monkeypatch: pytest.MonkeyPatch, *folders: Path) -> None:
+    """Let run.py take its interpreter for one that is too old, and see only these folders."""
+    old = SimpleNamespace(version_info=(3, 10, 2), version="3.10.2 (main)", executable="old")
+    monkeypatch.setattr(run, "sys", old)
+    monkeypatch.setenv("PATH", os.pathsep.join(map(str, folders)))
 
-    with pytest.raises(run.SetupError, match=r"^tramdva needs Python 3\.99; this is 3\.11"):
+
+def make_program(path: Path, text: str) -> Path:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(f"#!/bin/sh\n{text}\n")
+    path.chmod(0o755)
+    return path
+
+
+def test_unsupported_python_is_told_in_a_line(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    pretend_old(run, monkeypatch, tmp_path / "nothing")
+
+    with pytest.raises(run.SetupError) as error:
         run.main([])
+
+    assert str(error.value) == (
+        "tramdva needs Python 3.11, 3.12 or 3.13; this is 3.10.2 and there is no other on PATH: "
+        "install one, for example python3.13, and run this again"
+    )
+
+
+def test_supported_python_on_path_takes_over(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    make_program(tmp_path / "shims" / OWN, "exit 127")  # of a version manager, switched off
+    other = make_program(tmp_path / "bin" / OWN, f'exec {sys.executable} "$@"')
+    pretend_old(run, monkeypatch, tmp_path / "shims", tmp_path / "bin")
+    became = []
+    monkeypatch.setattr(run.os, "execv", lambda *arguments: became.append(arguments))
+
+    run.become_supported_python(["-n"])
+
+    assert became == [(str(other), [str(other), str(Path(run.__file__).resolve()), "-n"])]
+
+
+def test_python_of_the_environment_comes_first(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    make_program(tmp_path / "bin" / OWN, f'exec {sys.executable} "$@"')
+    pretend_old(run, monkeypatch, tmp_path / "bin")
+    make_python(run)
+    (run.BIN / OWN).symlink_to(sys.executable)
+
+    assert run.supported_python() == str(run.BIN / OWN)
+
+
+def test_unsupported_python_says_so_for_real(root: Path, tmp_path: Path) -> None:
+    """The whole script, with a list of versions in which no interpreter can be."""
+    text = (root / "run.py").read_text()
+    versions = text.replace("PYTHONS = ((3, 11), (3, 12), (3, 13))", "PYTHONS = ((3, 98), (3, 99))")
+    (tmp_path / "run.py").write_text(versions)
+    ended = subprocess.run(
+        [sys.executable, tmp_path / "run.py", "-n"], capture_output=True, text=True, check=False
+    )
+
+    assert ended.returncode == 1
+    assert ended.stderr.startswith("tramdva needs Python 3.98 or 3.99; this is 3.")
+    assert ended.stderr.count("\n") == 1
+    assert not (tmp_path / ".venv").exists()
+
+
+def test_environment_of_another_python_is_set_up_again(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_python(run)
+    run.STAMP.write_text(run.stamp())
+    assert run.is_set_up()
+    assert run.is_python(run.BIN / "python", sys.version_info[:2])
+
+    another = next(version for version in run.PYTHONS if version != sys.version_info[:2])
+    monkeypatch.setattr(run, "sys", SimpleNamespace(version_info=(*another, 0)))
+
+    assert not run.is_set_up()
+    assert not run.works()
+
+
+def test_versions_are_the_same_everywhere(root: Path, run: ModuleType) -> None:
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    workflow = (root / ".github/workflows/ci.yml").read_text()
+    lock = (root / "requirements.lock").read_text()
+    names = [run.dotted(version) for version in run.PYTHONS]
+    (major, first), (_, last) = run.PYTHONS[0], run.PYTHONS[-1]
+
+    assert project["requires-python"] == f">={major}.{first},<{major}.{last + 1}"
+    listed = [text for text in project["classifiers"] if re.search(r"Python :: \d+\.", text)]
+    assert listed == [f"Programming Language :: Python :: {name}" for name in names]
+    assert f"python-version: [{', '.join(map(json.dumps, names))}]" in workflow
+    assert f"--python-version {names[0]} " in lock
+    for page in ("run.py", "README.md", "docs/tutorial.md"):
+        said = " ".join((root / page).read_text().split())
+        assert f"Python {', '.join(names[:-1])} or {names[-1]}" in said, page
 
 
 def test_only_one_entry_of_the_lock_is_taken(run: ModuleType) -> None:

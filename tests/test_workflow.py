@@ -6,15 +6,20 @@ of a line, the record is cloned to a line per key, so that a single dry run answ
 
 import base64
 import fcntl
+import importlib
+import inspect
 import json
 import os
 import re
 import shutil
 import time
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
+import figure_scripts
 import pytest
+import snakefile_tables
 import yaml
 
 from tramdva.configuration.numerics import Numerics
@@ -30,68 +35,15 @@ MEASURED = {
     "contact_geometry.rail.measured": "worn_rail.csv",
     "out_of_roundness.measured": "out_of_round.csv",
 }
-# What each rule reads of the files of others.
-UPSTREAM = {
-    "hopf_points": ["stability_map"],
-    "limit_cycles": ["hopf_points"],
-    "critical_hopf_curve": ["hopf_curves"],
-    "cycle_amplitudes": ["critical_hopf_curve"],
-    "absorber_tuning": ["critical_hopf_curve"],
-    "frequency_response": ["absorber_tuning"],
-    "curving_equilibrium": ["contact_geometry", "absorber_tuning"],
-    "bogie_modes": ["contact_geometry", "curving_equilibrium"],
-    "curve_entry": ["contact_geometry", "curving_equilibrium"],
-    "fig02_stability_map": ["stability_map"],
-    "fig03_bifurcation_diagram": ["hopf_points", "limit_cycles"],
-    "fig04_hopf_curves": ["hopf_curves", "critical_hopf_curve"],
-    "fig05_critical_hopf_curve": ["critical_hopf_curve"],
-    "fig06_cycle_amplitudes": ["critical_hopf_curve", "cycle_amplitudes"],
-    "fig07_frequency_response": ["frequency_response", "absorber_tuning"],
-    "fig09_curve_entry": ["curve_entry", "bogie_modes"],
-    "bogie_mode_shapes": ["bogie_modes"],
-    "bogie_stability": ["bogie_modes"],
-    "campbell_chart": ["bogie_modes"],
-    "table2_absorber_designs": ["absorber_tuning"],
-    "bogie_linearisation": ["contact_geometry", "curving_equilibrium"],  # the latter if tuned
-    "bogie_simulation": ["contact_geometry", "bogie_linearisation"],
-    "wear": ["bogie_simulation"],
-    "evolution_tendency": ["bogie_linearisation", "wear"],
-    "tendency_maps": ["contact_geometry", "bogie_linearisation"],
-    "fig10_evolution_tendency": ["evolution_tendency"],
-    "worn_wheels": ["evolution_tendency", "wear"],
-    "order_speed_chart": ["tendency_maps"],
-    "tendency_design_chart": ["tendency_maps"],
-    "table_absorber_effect": ["evolution_tendency"],
-    "bogie_designs": ["contact_geometry"],
-    "explorer": ["wheelset_designs", "bogie_designs"],
-    "robustness_sample": ["contact_geometry"],
-    "robust_tuning": ["robustness_sample"],
-    "design_sheet": ["stability_map", "bogie_modes", "tendency_maps", "robust_tuning"],
-}
+TABLES = snakefile_tables.read()
+UPSTREAM = TABLES.reads
 # Inputs that the paper's line has none of.
 IDLE = {("bogie_linearisation", "curving_equilibrium")}
-FIGURES = [
-    *(rule for rule in UPSTREAM if rule.startswith("fig")),
-    "fig08_bogie",
-    "bogie_mode_shapes",
-    "bogie_stability",
-    "campbell_chart",
-    "worn_wheels",
-    "order_speed_chart",
-    "tendency_design_chart",
-    "explorer",
-    "design_sheet",
-]
-RULES = {
-    "stability_map",
-    "hopf_curves",
-    "wheelset_designs",
-    "contact_geometry",
-    "fig08_bogie",
-    *UPSTREAM,
-}
+RULES = set(UPSTREAM)
+TABULAR = {figure for figure, kinds in TABLES.kinds.items() if "table" in kinds}
+FIGURES = [figure for figure in TABLES.figures if figure not in TABULAR]
 PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
-ABSORBERS, ORDERS, PARTS = ("none", "paper"), (26, 27), range(8)
+ABSORBERS, ORDERS, PARTS = ("none", "paper"), (34, 35), range(8)
 BOGIE = ["curving_equilibrium", "bogie_modes", "curve_entry"]
 ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps", "bogie_designs", "robustness_sample"]
 WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency", "robust_tuning"]
@@ -205,6 +157,7 @@ USERS = {
     ],
     "study.curve_entry": ["curve_entry"],
     "study.curve_entry.entry": ["curve_entry", "fig09_curve_entry"],
+    "numerics.orders_per_job": [],  # a way to compute, as long as the orders of a job stay together
     "numerics.bogie": [*BOGIE, *ROUGH_BOGIE],
     "numerics.wear": WORN,
     "wheelset.c_A": [
@@ -281,21 +234,22 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
 
 
 def files_of(rule: str, line: str) -> list[str]:
-    if rule == "bogie_linearisation":
-        return [f"results/{line}/{rule}/{absorber}.nc" for absorber in ABSORBERS]
-    if rule == "robustness_sample":
-        return [f"results/{line}/{rule}/part_{part}.nc" for part in PARTS]
-    if rule == "design_sheet":
-        return [f"paper_figures/{line}/{rule}.{kind}" for kind in ("pdf", "html")]
-    if rule in PER_JOB:
-        jobs = [(absorber, order) for absorber in ABSORBERS for order in ORDERS]
-        return [f"results/{line}/{rule}/{absorber}/order_{order}.nc" for absorber, order in jobs]
-    if rule in STAGES:
+    if rule in TABLES.figures:
+        return [f"paper_figures/{line}/{rule}.{end}" for end in TABLES.kinds[rule].values()]
+    if rule in TABLES.stages:
         return [f"results/{line}/{rule}.nc"]
-    if rule == "explorer":
-        return [f"paper_figures/{line}/{rule}.html"]
-    kinds = ["csv", "html"] if rule.startswith("table") else ["pdf", "png"]
-    return [f"paper_figures/{line}/{rule}.{kind}" for kind in kinds]
+    if rule == "bogie_linearisation":
+        names = list(ABSORBERS)
+    elif rule == "robustness_sample":
+        names = [f"part_{part}" for part in PARTS]
+    else:
+        names = [f"{absorber}/order_{order}" for absorber in ABSORBERS for order in ORDERS]
+    return [f"results/{line}/{rule}/{name}.nc" for name in names]
+
+
+def table_entry(rule: str) -> str:
+    """The stage of a rule: rules for some of the orders bear its name and these."""
+    return re.sub(r"_orders_\d+_\d+$", "", rule)
 
 
 def make_files(folder: Path, line: str) -> None:
@@ -313,7 +267,7 @@ def planned(summary: str) -> dict[str, set[str]]:
         name, _, rule, *_, action = row.split("\t")
         rules = plan.setdefault(Path(name).parts[1], set())
         if action == "update pending":
-            rules.add(rule)
+            rules.add(table_entry(rule))
     return plan
 
 
@@ -562,18 +516,36 @@ def test_wear_hardness_reruns_no_simulation(completed: Path, snakemake) -> None:
     assert not plan["x"] & {"bogie_simulation", "bogie_linearisation", "curving_equilibrium"}
 
 
-def test_one_more_order_runs_its_own_jobs(completed: Path, snakemake) -> None:
+@pytest.mark.parametrize(
+    ("change", "made"),
+    [
+        ("{last: 36}", {36}),  # 36 to 47 are those of one job
+        ("{first: 33}", {33, *ORDERS}),
+    ],
+)
+def test_one_more_order_runs_its_own_job(
+    completed: Path, snakemake, change: str, made: set[int]
+) -> None:
+    assert load(completed / "config").run.numerics.orders_per_job == 12
     more = completed / "more.yaml"
-    more.write_text("numerics: {evolution_tendency: {orders: {last: 28}}}")
+    more.write_text(f"numerics: {{evolution_tendency: {{orders: {change}}}}}")
 
     files = pending(snakemake, completed, "--configfile", str(more))
 
-    simulated = {name for name in files if "order_" in name}
-    assert simulated == {
-        f"results/paper/{rule}/{absorber}/order_28.nc"
+    assert {name for name in files if "order_" in name} == {
+        f"results/paper/{rule}/{absorber}/order_{order}.nc"
         for rule in PER_JOB[1:]
         for absorber in ABSORBERS
+        for order in made
     }
+
+
+def test_order_that_the_run_has_not_is_made_alone(completed: Path, snakemake) -> None:
+    ended = snakemake(completed, "-n", "--cores", "1", "results/paper/wear/none/order_7.nc")
+
+    assert ended.returncode == 0, ended.stderr
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
+    assert jobs == {"bogie_simulation": "1", "wear": "1", "total": "2"}
 
 
 def test_tuned_absorber_waits_for_its_tuning(completed: Path, snakemake) -> None:
@@ -587,7 +559,17 @@ def test_tuned_absorber_waits_for_its_tuning(completed: Path, snakemake) -> None
 
 
 @pytest.mark.parametrize(
-    "module", ["wheelset", "absorber", "bifurcation/critical_hopf", "results", "job", "config"]
+    "module",
+    [
+        "wheelset/model",
+        "wheelset/tuning",
+        "bifurcation/critical_hopf",
+        "stages/hopf_points",
+        "variables/shared",
+        "results",
+        "running/job",
+        "configuration/reading",
+    ],
 )
 def test_edited_module_reruns_its_users(
     completed: Path, code: Path, snakemake, module: str
@@ -647,12 +629,13 @@ def test_edited_script_of_the_page_makes_it_anew(completed: Path, code: Path, sn
 def test_touch_comments_and_docstrings_rerun_nothing(
     completed: Path, code: Path, snakemake
 ) -> None:
-    for path in [*code.rglob("*.py"), *code.rglob("*.mplstyle"), code / "Snakefile"]:
+    others = (*code.rglob("*.mplstyle"), *code.rglob("*.smk"), code / "Snakefile")
+    for path in [*code.rglob("*.py"), *others]:
         if path.suffix == ".py":
             append(path, "\n# a comment\n")
         path.touch()
-    wheelset = code / "src/tramdva/wheelset.py"
-    wheelset.write_text(re.sub(r'^"""', '"""Changed. ', wheelset.read_text(encoding="utf-8")))
+    model = code / "src/tramdva/wheelset/model.py"
+    model.write_text(re.sub(r'^"""', '"""Changed. ', model.read_text(encoding="utf-8")))
 
     assert summary(snakemake, completed, code=code) == {"paper": set()}
 
@@ -682,18 +665,22 @@ def test_catalog_finds_the_same_jobs(root: Path, tmp_path: Path, snakemake) -> N
     for snakefile in ("Snakefile", "workflow/Snakefile"):
         ended = snakemake(tmp_path, "-n", "--cores", "1", snakefile=snakefile)
         assert ended.returncode == 0, ended.stderr
-        jobs = dict(re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE))
+        jobs: Counter[str] = Counter()
+        for rule, number in re.findall(r"^(\w+) +(\d+)$", ended.stdout, re.MULTILINE):
+            jobs[table_entry(rule)] += int(number)
         tables.append({rule: number for rule, number in jobs.items() if rule in RULES})
 
     loaded = load(root / "config")
     orders = loaded.run.numerics.evolution_tendency.orders.listed()
+    batches = len({order // loaded.run.numerics.orders_per_job for order in orders})
+    assert batches == 6
     many = {
         "bogie_linearisation": 2,
-        "bogie_simulation": 2 * len(orders),
-        "wear": 2 * len(orders),
+        "bogie_simulation": 2 * batches,
+        "wear": 2 * batches,
         "robustness_sample": len(PARTS),
     }
-    expected = {rule: str(len(loaded.lines) * many.get(rule, 1)) for rule in RULES}
+    expected = {rule: len(loaded.lines) * many.get(rule, 1) for rule in RULES}
     assert tables[0] == tables[1] == expected
 
 
@@ -732,7 +719,7 @@ def test_failing_job_says_one_line_and_logs_the_traceback(
 ) -> None:
     (tmp_path / "Snakefile").write_text(BROKEN)
     (tmp_path / "broken.py").write_text(
-        "import logging, sys, os, warnings\nfrom tramdva import job\n"
+        "import logging, sys, os, warnings\nfrom tramdva.running import job\n"
         "with job.logging_to(snakemake.log[0]):\n"
         "    print('printed'); logging.info('logged'); warnings.warn('warned')\n"
         "    os.system('echo child'); print('error', file=sys.stderr)\n"
@@ -763,30 +750,61 @@ def test_times_of_jobs_are_told(tmp_path: Path) -> None:
     ]
 
 
+def rules_of(root: Path) -> Iterator[tuple[str, str]]:
+    """Where each rule of the tables is made and its text, unindented."""
+    for path in sorted((root / "workflow/rules").glob("*.smk")):
+        rule = re.compile(r"^( *)rule(?: \w+)?:\n((?:\1    .*\n|\n)*)", re.MULTILINE)
+        for indent, body in rule.findall(path.read_text(encoding="utf-8")):
+            yield path.name, re.sub(f"^{indent}    ", "", body, flags=re.MULTILINE)
+
+
 def test_rules_declare_the_same_directives(root: Path) -> None:
     """Order of directives in every rule; a deviation is then visible."""
-    text = (root / "Snakefile").read_text()
     order = ["input", "output", "log", "benchmark", "threads", "params", "message", "script"]
-    for rule in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
-        name, body = rule
-        directives = re.findall(r"^    (\w+):", body, re.MULTILINE)
-        if name != "all":
-            assert directives in (order, order[1:]), name
+    for name, body in rules_of(root):
+        directives = re.findall(r"^(\w+):", body, re.MULTILINE)
+        own = [d for d in directives if d not in ("name", "wildcard_constraints")]
+        assert own == order, f"{name}:\n{body}"
+        assert "name" not in directives[1:]
+    assert {name for name, _ in rules_of(root)} == {"figures.smk", "jobs.smk", "stages.smk"}
 
 
-def test_scripts_use_the_inputs_of_their_rules(root: Path) -> None:
-    text = (root / "Snakefile").read_text()
-    for rule, body in re.findall(r"^rule (\w+):\n((?:    .*\n|\n)*)", text, re.MULTILINE):
-        if rule != "all":
-            inputs = re.search(r"    input:\n((?:        .*\n)*)", body)
-            block = inputs[1] if inputs else ""
-            declared = re.findall(r"^        (\w+)=", block, re.MULTILINE)
-            for name, of in re.findall(r"^        (\w+)=rules\.(\w+)\.", block, re.MULTILINE):
-                assert name == of, rule
-            script = script_of(root, rule).read_text(encoding="utf-8")
-            used = set(re.findall(r"snakemake\.input\.(?:get\(\")?(\w+)", script))
-            assert used == set(declared), rule
-            assert set(UPSTREAM.get(rule, [])) == set(declared), rule
+def test_jobs_read_what_the_table_says(root: Path) -> None:
+    seen = set()
+    for name, body in rules_of(root):
+        if name == "jobs.smk":
+            (script,) = re.findall(r"^script:\n    \"\.\./scripts/(\w+)\.py\"", body, re.MULTILINE)
+            block = re.search(r"^input:\n((?:    .*\n)*)", body, re.MULTILINE)[1]
+            assert re.findall(r"^    (\w+)=", block, re.MULTILINE) == TABLES.jobs[script]
+            seen.add(script)
+    assert seen == set(TABLES.jobs)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_stages_use_the_inputs_of_their_rules(stage: str) -> None:
+    module = importlib.import_module(f"tramdva.stages.{stage}")
+    offered = {"cfg", "file_of", "absorber", "order", "part"}
+
+    assert next(iter(inspect.signature(module.compute).parameters)) == "cfg"
+    assert set(inspect.signature(module.compute).parameters) - offered == set(UPSTREAM[stage])
+    assert module.VARIABLES is STAGES[stage]
+
+
+@pytest.mark.parametrize("figure", TABLES.figures)
+def test_figures_use_the_inputs_of_their_rules(figure: str) -> None:
+    parameters = set(inspect.signature(figure_scripts.script(figure).main).parameters)
+    kinds = set(TABLES.kinds[figure])
+
+    assert parameters >= kinds
+    assert parameters - kinds - {"cfg", "code", "line"} == set(TABLES.figures[figure])
+
+
+def test_tables_name_what_there_is(root: Path) -> None:
+    scripts = {path.stem for path in (root / "workflow/scripts").glob("*.py")}
+    drawings = {path.stem for path in (root / "paper_figures").glob("*.py")}
+
+    assert scripts == set(STAGES) == {*TABLES.stages, *TABLES.jobs}
+    assert drawings == set(TABLES.figures)
 
 
 def test_parameters_of_jobs_are_plain_json(root: Path) -> None:

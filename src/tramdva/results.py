@@ -48,7 +48,7 @@ def make(snakemake: Any, stage: ModuleType) -> None:
     """
     with job.logging_to(snakemake.log[0]):
         orders = snakemake.params.get("orders", [None])
-        shared, own = _inputs(snakemake, batch="orders" in snakemake.params.keys())
+        shared, own = _inputs(snakemake, batch=snakemake.params.get("orders") is not None)
         for place, (order, output) in enumerate(zip(orders, snakemake.output, strict=True)):
             of_order = {name: read(paths[place]) for name, paths in own.items()}
             asked = _asked_for(stage, snakemake, order)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from bifurcation.textbook import brusselator, hopf_point, normal_form, roessler
 from numpy.testing import assert_allclose
+from textbook import brusselator, hopf_point, normal_form, roessler
 
 from tramdva.bifurcation import hopf
 from tramdva.bifurcation.continuation import StepControl

@@ -1,6 +1,8 @@
 import numpy as np
 import pytest
-from bifurcation.textbook import (
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from textbook import (
     brusselator,
     hopf_point,
     langford,
@@ -8,8 +10,6 @@ from bifurcation.textbook import (
     roessler,
     van_der_pol,
 )
-from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
 
 from tramdva.bifurcation import collocation
 from tramdva.bifurcation.continuation import StepControl

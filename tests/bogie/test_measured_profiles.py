@@ -53,13 +53,12 @@ def pair(configuration) -> dict[str, Profile]:
 def measured(request, cfg, pair, tmp_path_factory):
     """Noise, and contact tables of profiles that were written to files and read again."""
     folder = tmp_path_factory.mktemp("measured")
-    profiles = {
-        kind: measured_profile(
-            write(folder / f"{kind}.csv", profile, request.param, seed), kind, request.param
-        )
-        for seed, (kind, profile) in enumerate(pair.items())
-    }
-    return request.param, contact_geometry.compute(cfg, **profiles)
+    shape = dict(cfg["contact_geometry"])
+    for seed, (kind, profile) in enumerate(pair.items()):
+        path = write(folder / f"{kind}.csv", profile, request.param, seed)
+        shape[kind] = shape[kind] | {"measured": path.name, "measured_noise": request.param}
+    measured_cfg = {**cfg, "contact_geometry": shape}
+    return request.param, contact_geometry.compute(measured_cfg, folder.joinpath)
 
 
 def heights(variables, places) -> np.ndarray:

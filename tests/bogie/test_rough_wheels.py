@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from wear_charts import chart_with
 
 from tramdva.bogie import revolutions
 from tramdva.bogie import wheel_forces as running_module
-from tramdva.bogie.absorbers import attach, receptances
+from tramdva.bogie.absorber_ports import port_modes, ports, receptances
 from tramdva.bogie.curving import linearise
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.rough_wheels import (
@@ -27,7 +28,6 @@ from tramdva.evolution.tendency import (
     wear_sensitivity,
 )
 from tramdva.stages import bogie_simulation, wear
-from tramdva.wear.chart import WearChart
 
 FRONT = ("front_outer", "front_inner")
 V, R0 = 4.0, 0.3
@@ -61,7 +61,10 @@ def rough(quiet):
 def stored(quiet, rough):
     """As the file holds it, by absorber."""
     return {
-        name: variables(rough[name], run.curve.contacts, R0, (12, 12))
+        name: {
+            "absorber": np.array(name),
+            **variables(rough[name], run.curve.contacts, R0, (12, 12)),
+        }
         for name, run in quiet.items()
     }
 
@@ -85,7 +88,7 @@ def simulate(stored_values, tables, order, **changes):
 
 
 def linear(rough_, run, frequency, wheels=FRONT, cells=24, **chart):
-    wheels_of = WearChart(**({"method": "constant"} | chart))
+    wheels_of = chart_with(**({"method": "constant"} | chart))
     sensitivity = wear_sensitivity(
         rough_,
         run.curve.contacts.law,
@@ -152,7 +155,7 @@ def test_mean_wear_is_that_of_the_equilibrium(stored, rough, quiet, tables):
     sensitivity = wear_sensitivity(
         rough["paper"],
         quiet["paper"].curve.contacts.law,
-        Wearing(WearChart(method="smoothed"), fastsim.patch_grid(24, 24), FRONT),
+        Wearing(chart_with(method="smoothed"), fastsim.patch_grid(24, 24), FRONT),
     )
     np.testing.assert_allclose(worn["mean_wear_depth"], sensitivity.mean_depth()[:2], rtol=1e-3)
     np.testing.assert_allclose(worn["wear_depth"].mean(axis=1), worn["mean_wear_depth"], rtol=1e-9)
@@ -162,7 +165,7 @@ def test_a_vehicle_that_does_not_move_wears_by_the_load_of_hertz(rough, quiet):
     """By hand, constant k and full sliding: depth over its mean follows N ~ penetration^1.5."""
     bogie, law = rough["none"], quiet["none"].curve.contacts.law
     sensitivity = wear_sensitivity(
-        bogie, law, Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT)
+        bogie, law, Wearing(chart_with(method="constant"), fastsim.patch_grid(24, 24), FRONT)
     )
     rows = wear_rows(bogie, sensitivity, np.array([1e-3]), V, R0, FRONT)
     # The conformal flange root changes its curvature as the wheel sinks, the tread does not.
@@ -227,13 +230,13 @@ def attached(run, rough_, absorber_, inertia, c_T, d_T, frequency):
     sensitivity = wear_sensitivity(
         rough_,
         run.curve.contacts.law,
-        Wearing(WearChart(method="constant"), fastsim.patch_grid(24, 24), FRONT),
+        Wearing(chart_with(method="constant"), fastsim.patch_grid(24, 24), FRONT),
     )
     rows = wear_rows(rough_, sensitivity, frequency, V, R0, FRONT)
     turn = 2.0 * np.pi * frequency
     bare = receptances(run.curve, run.equilibrium, rough_, absorber_, turn, rows.source)
-    output = rows.output([0, 1])
-    return attach(bare, inertia, c_T, d_T, output) + rows.direct[:, :2]
+    found = ports(bare, inertia, rows.output([0, 1]), rows.direct[:, :2])
+    return port_modes(found).response(inertia, c_T, d_T)
 
 
 def test_attached_absorbers_respond_as_the_vehicle_built_with_them(line, quiet, rough):

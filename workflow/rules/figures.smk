@@ -1,12 +1,18 @@
 """A rule for each figure of the table FIGURES."""
 
 STYLE = DRAWINGS / "tramdva.mplstyle"
-# What a drawing is made of beside its script.
+# What a page is made of beside its script; drawings are made of the style, tables of nothing.
 PARTS_OF = {
     "explorer": [DRAWINGS / f"explorer.{kind}" for kind in ("html", "css", "js")]
 }
 
-for figure, (reads, _, shows, _) in FIGURES.items():
+
+def parts_of(figure, kinds):
+    """Name the files that a figure is made of beside its script."""
+    return PARTS_OF.get(figure, [STYLE] if "pdf" in kinds else [])
+
+
+for figure, (reads, _, shows, kinds) in FIGURES.items():
 
     rule:
         name:
@@ -23,7 +29,7 @@ for figure, (reads, _, shows, _) in FIGURES.items():
         params:
             figure=figure,
             cfg=lambda w, figure=figure: values(w.line, figure),
-            code=code_hash(DRAWINGS / f"{figure}.py", *PARTS_OF.get(figure, [STYLE])),
+            code=code_hash(DRAWINGS / f"{figure}.py", *parts_of(figure, kinds)),
         message:
             f"{{wildcards.line}}: {shows}"
         script:

@@ -13,18 +13,22 @@ ibid. 15
 from the condensed matrix).
 """
 
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
 
-jit = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+from tramdva.bifurcation.elimination import (
+    factor,
+    factor_columns,
+    forward_columns,
+    jit,
+    substitute,
+)
 
 
-@dataclass(frozen=True)
-class Basis:
+class Basis(NamedTuple):
     """Lagrange basis of degree m on the unit interval, at the Gauss points.
 
     Attributes
@@ -116,17 +120,34 @@ def error_monitor(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarra
     The derivative comes from the jumps of the m-th derivative at the mesh points, mean of both
     sides.
     """
-    h = np.diff(mesh)
-    nodal = nodal / np.maximum(
-        np.ptp(nodal, axis=0), 1e-300
-    )  # states count alike, whatever their size
-    highest = np.einsum("i,jin->jn", basis(degree).highest, interval_values(nodal, degree))
-    highest /= h[:, None] ** degree
-    spacing = 0.5 * (h + np.roll(h, 1))
-    jump = np.linalg.norm(highest - np.roll(highest, 1, axis=0), axis=1) / spacing
-    density = (0.5 * (jump + np.roll(jump, -1))) ** (1.0 / (degree + 1))
+    return _monitor(mesh[1:] - mesh[:-1], nodal, basis(degree).highest)
+
+
+@jit
+def _monitor(h, nodal, highest):
+    N, n, m = h.size, nodal.shape[1], highest.size - 1
+    derivative = np.zeros((N, n))
+    for s in range(n):
+        extent = nodal[:, s].max() - nodal[:, s].min()
+        size = max(extent, 1e-300)  # states count alike, whatever their size
+        for j in range(N):
+            for i in range(m + 1):
+                derivative[j, s] += highest[i] * (nodal[j * m + i, s] / size)
+            derivative[j, s] /= h[j] ** m
+    jump = np.empty(N + 1)
+    for j in range(N):
+        square = 0.0
+        for s in range(n):
+            square += (derivative[j, s] - derivative[j - 1, s]) ** 2
+        jump[j] = np.sqrt(square) / (0.5 * (h[j] + h[j - 1]))
+    jump[N] = jump[0]
+    density = np.empty(N)
+    total = 0.0
+    for j in range(N):
+        density[j] = (0.5 * (jump[j] + jump[j + 1])) ** (1.0 / (m + 1))
+        total += density[j] * h[j]
     # A floor keeps intervals where the orbit is almost polynomial from growing without bound.
-    return np.maximum(density, 0.1 * (density @ h) + 1e-300)
+    return np.maximum(density, 0.1 * total + 1e-300)
 
 
 def equidistributed_mesh(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np.ndarray:
@@ -139,12 +160,11 @@ def equidistributed_mesh(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> np
 
 def mesh_imbalance(mesh: np.ndarray, nodal: np.ndarray, degree: int) -> float:
     """Largest share of the error monitor over the mean; 1 on an equidistributed mesh."""
-    share = error_monitor(mesh, nodal, degree) * np.diff(mesh)
+    share = error_monitor(mesh, nodal, degree) * (mesh[1:] - mesh[:-1])
     return float(share.max() / share.mean())
 
 
-@dataclass(frozen=True)
-class BorderedFactors:
+class BorderedFactors(NamedTuple):
     """Factorised linear system of an orbit; see `factorise`."""
 
     interval_lu: np.ndarray
@@ -152,21 +172,13 @@ class BorderedFactors:
     chain_lu: np.ndarray
     chain_pivots: np.ndarray
     closing: np.ndarray
+    closing_pivots: np.ndarray
     left: np.ndarray
     right: np.ndarray
 
 
-def factorise(
-    base: Basis,
-    h: np.ndarray,
-    period: float,
-    J: np.ndarray,
-    f: np.ndarray,
-    f_p: np.ndarray,
-    phase: np.ndarray,
-    arc: np.ndarray,
-    arc_scalars: tuple[float, float],
-) -> BorderedFactors:
+@jit
+def factorise(base, h, period, J, f, f_p, phase, arc, arc_scalars):
     """Factorise the bordered collocation matrix.
 
     Parameters
@@ -189,7 +201,8 @@ def factorise(
     Returns
     -------
     BorderedFactors
-        With ``left`` P and ``right`` Q, (n, n), of the condensed P u(0) + Q u(1) = 0.
+        With ``left`` P and ``right`` Q, (n, n), of the condensed P u(0) + Q u(1) = 0. A singular
+        matrix gives factors that are not finite.
 
     Notes
     -----
@@ -210,17 +223,30 @@ def factorise(
     )
     n = J.shape[2]
     chain_lu, chain_pivots, last = _eliminate_chain(interval_lu, n)
-    left, right = last[:n, :n], last[:n, n : 2 * n]
-    closing = np.hstack([last[:, :n] + last[:, n : 2 * n], last[:, 2 * n :]])  # u(0) = u(1)
-    closing[-1, -2:] += arc_scalars
+    left, right = last[:n, :n].copy(), last[:n, n : 2 * n].copy()
+    closing = np.empty((n + 2, n + 2))
+    for i in range(n + 2):
+        for k in range(n):
+            closing[i, k] = last[i, k] + last[i, n + k]  # u(0) = u(1)
+        closing[i, n] = last[i, 2 * n]
+        closing[i, n + 1] = last[i, 2 * n + 1]
+    closing[n + 1, n] += arc_scalars[0]
+    closing[n + 1, n + 1] += arc_scalars[1]
+    closing_pivots = factor(closing)
     return BorderedFactors(
-        interval_lu, interval_pivots, chain_lu, chain_pivots, closing, left, right
+        interval_lu,
+        interval_pivots,
+        chain_lu,
+        chain_pivots,
+        closing,
+        closing_pivots,
+        left,
+        right,
     )
 
 
-def solve(
-    factors: BorderedFactors, residual: np.ndarray, border: tuple[float, float]
-) -> tuple[np.ndarray, float, float]:
+@jit
+def solve(factors, residual, border):
     """Solution of the bordered system.
 
     Parameters
@@ -238,56 +264,17 @@ def solve(
         Nodal values (N m + 1, n), T and p.
     """
     N, m, n = residual.shape
-    rhs, chain, last = _forward(
+    rhs, chain, closing = _forward(
         factors.interval_lu,
         factors.interval_pivots,
         factors.chain_lu,
         factors.chain_pivots,
         residual.reshape(N, m * n),
-        np.array(border, float),
+        border,
     )
-    closing = np.linalg.solve(factors.closing, last)
+    substitute(factors.closing, factors.closing_pivots, closing)
     nodal = _backward(factors.interval_lu, factors.chain_lu, rhs, chain, closing, m)
-    return nodal, float(closing[n]), float(closing[n + 1])
-
-
-@jit
-def _factor_columns(a, pivots, columns, rows):
-    """Gaussian elimination of the first columns; pivots among the first rows.
-
-    Multipliers stay below the diagonal, in the row order of their own step: `_forward_columns`
-    swaps and subtracts in turn.
-    """
-    height, width = a.shape
-    for k in range(columns):
-        best, size = k, abs(a[k, k])
-        for i in range(k + 1, rows):
-            if abs(a[i, k]) > size:
-                best, size = i, abs(a[i, k])
-        pivots[k] = best
-        if best != k:
-            for j in range(k, width):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
-        inverse = 1.0 / a[k, k]
-        for i in range(k + 1, height):
-            factor = a[i, k] * inverse
-            a[i, k] = factor
-            if factor != 0.0:
-                for j in range(k + 1, width):
-                    a[i, j] -= factor * a[k, j]
-
-
-@jit
-def _forward_columns(a, pivots, columns, b):
-    """Apply the elimination of `_factor_columns` to a right-hand side."""
-    for k in range(columns):
-        best = pivots[k]
-        if best != k:
-            b[k], b[best] = b[best], b[k]
-        value = b[k]
-        if value != 0.0:
-            for i in range(k + 1, a.shape[0]):
-                b[i] -= a[i, k] * value
+    return nodal, closing[n], closing[n + 1]
 
 
 @jit
@@ -314,7 +301,7 @@ def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, pha
             for r in range(n):
                 a[c * n + r, inside + 2 * n] = -f[j, c, r]
                 a[c * n + r, inside + 2 * n + 1] = -period * f_p[j, c, r]
-        _factor_columns(a, pivots[j], inside, rows)
+        factor_columns(a, pivots[j], inside, rows)
     return lu, pivots
 
 
@@ -348,7 +335,7 @@ def _eliminate_chain(lu, n):
             for k in range(2 * n + 2):
                 column = k if k < n else k + n
                 a[n + i, column] += block[top + i, inside + k]
-        _factor_columns(a, pivots[j - 1], n, 2 * n)
+        factor_columns(a, pivots[j - 1], n, 2 * n)
         _copy_block(running, 0, 0, a, n, n, n + 2, 2 * n + 2)
     return chain, pivots, running
 
@@ -366,7 +353,7 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
     for j in range(N):
         for i in range(rows):
             rhs[j, i] = residual[j, i]
-        _forward_columns(lu[j], pivots[j], inside, rhs[j])
+        forward_columns(lu[j], pivots[j], inside, rhs[j])
         if j > 0:
             b = chain[j - 1]
             for i in range(n):
@@ -375,7 +362,7 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
                 b[n + i] = rhs[j, inside + i]
             for i in range(n, n + 2):
                 b[n + i] += running[i]
-            _forward_columns(chain_lu[j - 1], chain_pivots[j - 1], n, b)
+            forward_columns(chain_lu[j - 1], chain_pivots[j - 1], n, b)
         source = rhs[0, inside:] if j == 0 else chain[j - 1, n:]
         for i in range(n + 2):
             running[i] = source[i]
@@ -386,35 +373,47 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
 
 @jit
 def _backward(lu, chain_lu, rhs, chain, closing, m):
-    """Back substitution: mesh points from right to left, then the nodes inside the intervals."""
+    """Back substitution: mesh points from right to left, then the nodes inside the intervals.
+
+    What is known is subtracted from all rows first, then column by column: no row waits for the
+    sum of another.
+    """
     N = lu.shape[0]
     n = closing.shape[0] - 2
     inside = n * (m - 1)
     nodal = np.empty((N * m + 1, n))
-    for k in range(n):
-        nodal[0, k] = nodal[N * m, k] = closing[k]
-    tail = closing[n:]
+    known = np.empty(3 * n + 2)
+    x = np.empty(max(inside, n))
+    nodal[0] = closing[:n]
+    nodal[N * m] = closing[:n]
+    known[:n] = closing[:n]
+    known[2 * n : 2 * n + 2] = closing[n:]
     for j in range(N - 1, 0, -1):
-        a, b = chain_lu[j - 1], chain[j - 1]
-        for k in range(n - 1, -1, -1):
-            value = b[k] - a[k, 3 * n] * tail[0] - a[k, 3 * n + 1] * tail[1]
-            for s in range(k + 1, n):
-                value -= a[k, s] * nodal[j * m, s]
-            for s in range(n):
-                value -= a[k, n + s] * nodal[0, s] + a[k, 2 * n + s] * nodal[(j + 1) * m, s]
-            nodal[j * m, k] = value / a[k, k]
-    x = np.empty(inside)
+        known[n : 2 * n] = nodal[(j + 1) * m]
+        _upper(chain_lu[j - 1, :n], chain[j - 1], known[: 2 * n + 2], x)
+        nodal[j * m] = x[:n]
     for j in range(N):
-        a = lu[j]
-        for k in range(inside - 1, -1, -1):
-            value = rhs[j, k]
-            for s in range(k + 1, inside):
-                value -= a[k, s] * x[s]
-            for s in range(n):
-                value -= a[k, inside + s] * nodal[j * m, s]
-                value -= a[k, inside + n + s] * nodal[(j + 1) * m, s]
-            value -= a[k, inside + 2 * n] * tail[0] + a[k, inside + 2 * n + 1] * tail[1]
-            x[k] = value / a[k, k]
-        for i in range(inside):
-            nodal[j * m + 1 + i // n, i % n] = x[i]
+        known[:n] = nodal[j * m]
+        known[n : 2 * n] = nodal[(j + 1) * m]
+        _upper(lu[j, :inside], rhs[j], known[: 2 * n + 2], x)
+        for i in range(1, m):
+            nodal[j * m + i] = x[(i - 1) * n : i * n]
     return nodal
+
+
+@jit
+def _upper(a, b, known, x):
+    """Unknowns x of the upper triangle left in `a` (k, k + l), those of its last columns known."""
+    height = np.uint64(a.shape[0])
+    one, zero = np.uint64(1), np.uint64(0)
+    for i in range(height):
+        value = b[i]
+        for s in range(np.uint64(known.size)):
+            value -= a[i, height + s] * known[s]
+        x[i] = value
+    for back in range(height):
+        k = height - one - back
+        x[k] /= a[k, k]
+        value = x[k]
+        for i in range(zero, k):
+            x[i] -= a[i, k] * value

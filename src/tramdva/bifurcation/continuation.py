@@ -10,7 +10,7 @@ H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problem
 
 import logging
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -213,11 +213,15 @@ def _locate(
 
 @dataclass(frozen=True)
 class CurvePoint:
-    """A solution z (N + 1,), its unit tangent, the residual before Newton's last step."""
+    """A solution z (N + 1,), its unit tangent, the residual before Newton's last step.
+
+    ``factors`` are those of the last matrix, where the next corrector uses them.
+    """
 
     z: np.ndarray
     tangent: np.ndarray
     residual: float
+    factors: Any = field(default=None, repr=False, compare=False)
 
 
 class AlgebraicCurve:
@@ -255,7 +259,7 @@ class AlgebraicCurve:
 
     def predict(self, point: CurvePoint, step: float) -> CurvePoint:
         """Step along the tangent."""
-        return CurvePoint(point.z + step * point.tangent, point.tangent, np.inf)
+        return CurvePoint(point.z + step * point.tangent, point.tangent, np.inf, point.factors)
 
     def correct(self, predicted: CurvePoint) -> tuple[CurvePoint | None, int]:
         """Newton in the hyperplane through the prediction, orthogonal to its tangent.
@@ -298,15 +302,15 @@ class AlgebraicCurve:
 
     def turning(self, point: CurvePoint, new: CurvePoint) -> float:
         """Cosine between the tangents."""
-        return float(point.tangent @ new.tangent)
+        return float(point.tangent.dot(new.tangent))
 
     def prepare(self, point: CurvePoint) -> CurvePoint:
         """Nothing to prepare."""
         return point
 
     def record(self, point: CurvePoint) -> CurvePoint:
-        """Nothing to leave out."""
-        return point
+        """The point without factors."""
+        return point if point.factors is None else replace(point, factors=None)
 
 
 def sign_changes(

@@ -6,11 +6,14 @@ Equations (9) and (10) of the paper; Y. A. Kuznetsov, Elements of Applied Bifurc
 sections 5.4 and 10.2.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tramdva.bifurcation import extended_system
+from tramdva.bifurcation.compiled import Evaluation
 from tramdva.bifurcation.continuation import (
     AlgebraicCurve,
     CurvePoint,
@@ -90,65 +93,28 @@ class _ExtendedSystem:
     def __init__(
         self, system: DynamicalSystem, parameters: np.ndarray, free: tuple[int, ...], component: int
     ) -> None:
-        self.system, self.free, self.k = system, free, component
         self._parameters = np.array(parameters, float)
+        self._free, self._component = np.array(free), component
         self.n = system.dimension
+        self.evaluation = Evaluation(system)
+        self.unknowns = extended_system.Unknowns(
+            self.evaluation.evaluator, self._parameters, self._free, component
+        )
 
     def parameters(self, z: np.ndarray) -> np.ndarray:
         p = self._parameters.copy()
-        p[list(self.free)] = z[3 * self.n + 1 :]
+        p[self._free] = z[3 * self.n + 1 :]
         return p
 
     def pack(self, point: HopfPoint) -> np.ndarray:
-        u = point.vector / point.vector[self.k]
-        free = point.parameters[list(self.free)]
+        u = point.vector / point.vector[self._component]
+        free = point.parameters[self._free]
         return np.concatenate([point.state, u.real, u.imag, [point.omega], free])
 
     def unpack(self, z: np.ndarray, residual: float, converged: bool = True) -> HopfPoint:
         n = self.n
         u = z[n : 2 * n] + 1j * z[2 * n : 3 * n]
         return HopfPoint(z[:n], u, float(z[3 * n]), self.parameters(z), residual, converged)
-
-    def residual(self, z: np.ndarray) -> np.ndarray:
-        n, k = self.n, self.k
-        x, u_R, u_I, omega = z[:n], z[n : 2 * n], z[2 * n : 3 * n], z[3 * n]
-        p = self.parameters(z)
-        J = self.system.jacobian(x[None], p)[0]
-        f = self.system.rhs(x[None], p)[0]
-        scaling = [u_R[k] - 1.0, u_I[k]]
-        return np.concatenate([f, J @ u_R + omega * u_I, J @ u_I - omega * u_R, scaling])
-
-    def derivative(self, z: np.ndarray) -> np.ndarray:
-        """Derivative of the residual in z.
-
-        ::
-
-                     x        u_R      u_I      omega   p
-            f     [  J        .        .        .       f_p     ]
-            u_R   [  (J u_R)' J        omega    u_I     J_p u_R ]
-            u_I   [  (J u_I)' -omega   J       -u_R     J_p u_I ]
-                  [  .        e_k      .        .       .       ]
-                  [  .        .        e_k      .       .       ]
-        """
-        n, k = self.n, self.k
-        x, u_R, u_I, omega = z[:n], z[n : 2 * n], z[2 * n : 3 * n], z[3 * n]
-        p = self.parameters(z)
-        J = self.system.jacobian(x[None], p)[0]
-        J_x, J_p = self.system.jacobian_derivatives(x, p, np.stack([u_R, u_I]), self.free)
-        f_p = self.system.rhs_parameter_derivatives(x, p, self.free)
-        out = np.zeros((3 * n + 2, z.size))
-        out[:n, :n] = out[n : 2 * n, n : 2 * n] = out[2 * n : 3 * n, 2 * n : 3 * n] = J
-        out[n : 2 * n, :n], out[2 * n : 3 * n, :n] = J_x
-        rows = np.arange(n)
-        out[n + rows, 2 * n + rows] = omega
-        out[2 * n + rows, n + rows] = -omega
-        out[n : 2 * n, 3 * n] = u_I
-        out[2 * n : 3 * n, 3 * n] = -u_R
-        out[:n, 3 * n + 1 :] = f_p.T
-        out[n : 2 * n, 3 * n + 1 :] = (J_p @ u_R).T
-        out[2 * n : 3 * n, 3 * n + 1 :] = (J_p @ u_I).T
-        out[3 * n, n + k] = out[3 * n + 1, 2 * n + k] = 1.0
-        return out
 
 
 def solve_hopf_point(
@@ -186,19 +152,10 @@ def solve_hopf_point(
     guess = HopfPoint(state, vector, eigenvalue.imag, np.array(parameters, float), np.inf, False)
     component = int(np.argmax(np.abs(vector)))
     extended = _ExtendedSystem(system, parameters, (system.index(free),), component)
-    z = extended.pack(guess)
-    size = np.inf
-    for _ in range(max_iterations + 1):
-        G = extended.residual(z)
-        size = float(np.abs(G).max())
-        if not np.isfinite(size):
-            break
-        try:
-            z = z - np.linalg.solve(extended.derivative(z), G)  # also once more at the tolerance
-        except np.linalg.LinAlgError:
-            break
-        if size <= tolerance:
-            break
+    z, size = extended_system.solve(
+        extended.unknowns, extended.pack(guess), tolerance, max_iterations
+    )
+    extended.evaluation.check()
     point = extended.unpack(z, size)
     return replace(point, converged=bool(size <= tolerance and point.omega > 0.0))
 
@@ -243,66 +200,58 @@ def first_lyapunov_coefficients(
     """
     if not points:
         return np.empty(0)
-    x = np.array([point.state for point in points])
-    parameters = np.array([point.parameters for point in points]).T
-    omega = np.array([point.omega for point in points])[:, None, None]
-    q = np.array([point.vector / np.abs(point.vector).max() for point in points])
-    J = system.jacobian(x, parameters)
-    a, b = q.real, q.imag
-    D_a, E_a = _jacobian_directions(system, x, parameters, a, radius)
-    D_b, E_b = _jacobian_directions(system, x, parameters, b, radius)
-    B_qq = _apply(D_a, a) - _apply(D_b, b) + 2j * _apply(D_a, b)
-    B_qqc = _apply(D_a, a) + _apply(D_b, b)
-    C_qqqc = _apply(E_a + E_b, a) + 1j * _apply(E_a + E_b, b)
-    identity = np.eye(system.dimension)
-    h_20 = np.linalg.solve(2j * omega * identity - J, B_qq[..., None])[..., 0]
-    h_11 = np.linalg.solve(J, B_qqc[..., None])[..., 0]
-    p = _adjoint_vectors(J, q, omega)
-    total = C_qqqc - 2.0 * _apply(D_a + 1j * D_b, h_11) + _apply(D_a - 1j * D_b, h_20)
-    l_1 = np.sum(np.conj(p) * total, axis=1).real / (2.0 * omega[:, 0, 0])
-    return l_1 / np.abs(q[:, component]) ** 2
+    evaluation = Evaluation(system)
+    coefficients = extended_system.lyapunov_coefficients(
+        evaluation.evaluator,
+        np.array([point.state for point in points]),
+        np.array([point.vector for point in points]),
+        np.array([point.omega for point in points]),
+        np.array([point.parameters for point in points]),
+        component,
+        radius,
+    )
+    evaluation.check()
+    return coefficients
 
 
-def _apply(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    return np.einsum("ajk,ak->aj", matrices, vectors)
+class _HopfCurve(AlgebraicCurve):
+    """Curve of the extended system with two free parameters, by its compiled corrector."""
+
+    def __init__(self, extended: _ExtendedSystem, tolerance: float) -> None:
+        super().__init__(None, None, _tests_of(extended.n), tolerance)
+        self._extended = extended
+
+    def correct(self, predicted: CurvePoint) -> tuple[CurvePoint | None, int]:
+        """As in `AlgebraicCurve`, with the matrix of the last point first."""
+        lu, pivots = predicted.factors or _NO_FACTORS
+        size, iterations, z, tangent, lu, pivots = extended_system.correct(
+            self._extended.unknowns,
+            predicted.z,
+            predicted.tangent,
+            self._tolerance,
+            self._max_iterations,
+            lu,
+            pivots,
+        )
+        self._extended.evaluation.check()
+        if not size <= self._tolerance:
+            return None, iterations
+        return CurvePoint(z, tangent, size, (lu, pivots)), iterations
 
 
-def _adjoint_vectors(J: np.ndarray, q: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """Vectors p with J^T p = -i omega p and <p, q> = conj(p) . q = 1, by bordered solves."""
-    count, n = q.shape
-    bordered = np.zeros((count, n + 1, n + 1), complex)
-    bordered[:, :n, :n] = np.swapaxes(J, 1, 2) + 1j * omega * np.eye(n)
-    bordered[:, :n, n] = q
-    bordered[:, n, :n] = np.conj(q)
-    right = np.zeros((count, n + 1, 1))
-    right[:, n] = 1.0
-    p = np.linalg.solve(bordered, right)[:, :n, 0]
-    return p / np.conj(np.sum(np.conj(p) * q, axis=1, keepdims=True))
+def _distance(a: np.ndarray, b: np.ndarray) -> float:
+    between = a - b
+    return math.sqrt(between.dot(between))
 
 
-def _jacobian_directions(
-    system: DynamicalSystem,
-    x: np.ndarray,
-    parameters: np.ndarray,
-    directions: np.ndarray,
-    radius: float,
-) -> tuple[np.ndarray, np.ndarray]:
-    """First and second derivatives of J at states (k, n) along directions (k, n), Cauchy's formula.
+_NO_FACTORS = (np.empty((0, 0)), np.empty(0, np.int64))
 
-    The trapezoidal rule with K points on the circle has the error of order radius^K and needs no
-    small difference; the lower half of the circle is the complex conjugate of the upper one.
-    """
-    K = 12
-    angles = np.pi * np.arange(K // 2 + 1) / (K // 2)
-    weights = np.where((angles == 0.0) | (angles == np.pi), 1.0, 2.0) / K
-    offsets = radius * np.exp(1j * angles)
-    states = x[:, None, :] + offsets[:, None] * directions[:, None, :]
-    count, n = x.shape
-    repeated = np.repeat(parameters, len(angles), axis=1)
-    J = system.jacobian(states.reshape(-1, n), repeated).reshape(count, -1, n, n)
-    first = np.einsum("a,kaij->kij", weights * np.exp(-1j * angles) / radius, J)
-    second = np.einsum("a,kaij->kij", 2.0 * weights * np.exp(-2j * angles) / radius**2, J)
-    return first.real, second.real
+
+def _tests_of(n: int) -> Callable[[CurvePoint], dict[str, float]]:
+    def tests(point: CurvePoint) -> dict[str, float]:
+        return {"critical": point.tangent[-1], "zero_frequency": point.z[3 * n]}
+
+    return tests
 
 
 @dataclass(frozen=True)
@@ -366,14 +315,11 @@ def hopf_curve(
     k = int(np.argmax(np.abs(start.vector)))
     extended = _ExtendedSystem(system, start.parameters, indices, k)
 
-    def tests(point: CurvePoint) -> dict[str, float]:
-        return {"critical": point.tangent[-1], "zero_frequency": point.z[3 * extended.n]}
-
     def l_1(point: CurvePoint) -> float:
         hopf = extended.unpack(point.z, point.residual)
         return first_lyapunov_coefficient(system, hopf, component)
 
-    curve = AlgebraicCurve(extended.residual, extended.derivative, tests, tolerance)
+    curve = _HopfCurve(extended, tolerance)
     first = curve.start(extended.pack(start), direction * np.eye(3 * extended.n + 3)[-1])
     if first is None:
         return HopfCurve([], np.empty(0), [], "no_convergence")
@@ -383,9 +329,9 @@ def hopf_curve(
     def leaves(point: CurvePoint) -> str | None:
         if any(not low <= point.z[i] <= high for i, low, high in windows):
             return "window"
-        step = float(np.linalg.norm(point.z - travelled[1]))
+        step = _distance(point.z, travelled[1])
         travelled[:] = [travelled[0] + step, point.z]
-        back = float(np.linalg.norm(point.z - first.z))
+        back = _distance(point.z, first.z)
         return "closed" if back < step and travelled[0] > 4.0 * step else None
 
     branch = trace(

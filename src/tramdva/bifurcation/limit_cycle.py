@@ -11,15 +11,15 @@ import numpy as np
 from scipy.linalg import eigvals
 from scipy.optimize import brentq
 
-from tramdva.bifurcation import collocation
+from tramdva.bifurcation import collocation, orbit_corrector
 from tramdva.bifurcation.collocation import BorderedFactors
+from tramdva.bifurcation.compiled import Evaluation
 from tramdva.bifurcation.continuation import Branch, StepControl, trace
 from tramdva.bifurcation.hopf import HopfPoint
-from tramdva.bifurcation.orbit import Direction, LimitCycle, Linearisation
+from tramdva.bifurcation.orbit import LimitCycle
+from tramdva.bifurcation.orbit_corrector import Direction
 from tramdva.bifurcation.system import DynamicalSystem
 
-# A chord step must shrink the residual by this factor, else the matrix is factorised anew.
-_CHORD_RATE = 0.2
 # Near a Hopf point a small orbit fixes the parameter to the tolerance over its amplitude only.
 _NEAR_ENOUGH = 1e-7
 
@@ -54,9 +54,10 @@ class LimitCycleCurve:
         max_imbalance: float = 1.5,
     ) -> None:
         self.system = system
+        self._evaluation = Evaluation(system)
         self.index = system.index(parameter)
         self._weight = 1.0 / parameter_scale**2
-        self._tolerance, self._max_iterations = tolerance, max_iterations
+        self._tolerance, self._max_iterations = float(tolerance), max_iterations
         self._max_imbalance = max_imbalance
 
     def start(self, hopf: HopfPoint, intervals: int, degree: int, sign: int = 1) -> LimitCycle:
@@ -98,12 +99,16 @@ class LimitCycleCurve:
         The fold is a zero of the tangent's parameter; the others are products over multipliers,
         the trivial one left out: (mu + 1), and (1 - mu_i mu_j).
         """
-        rest = point.multipliers[1:]
-        i, j = np.triu_indices(len(rest), 1)
+        rest = point.multipliers[1:].tolist()
+        doubling, torus = 1.0, 1.0
+        for i, multiplier in enumerate(rest):
+            doubling *= 1.0 + multiplier
+            for other in rest[i + 1 :]:
+                torus *= 1.0 - multiplier * other
         return {
             "fold": point.tangent.parameter,
-            "period_doubling": float(np.prod(1.0 + rest).real) if rest.size else np.nan,
-            "torus": float(np.prod(1.0 - rest[i] * rest[j]).real) if len(rest) > 1 else np.nan,
+            "period_doubling": complex(doubling).real if rest else np.nan,
+            "torus": complex(torus).real if len(rest) > 1 else np.nan,
         }
 
     def turning(self, point: LimitCycle, new: LimitCycle) -> float:
@@ -167,116 +172,47 @@ class LimitCycleCurve:
     # Corrector
 
     def _solve(self, predicted: LimitCycle, fixed_parameter: bool) -> tuple[LimitCycle | None, int]:
-        """Newton steps, with the matrix of the last orbit as long as they converge fast (chord).
-
-        Every step is orthogonal to the orbit's time derivative (phase) and to the tangent
-        (arclength), or leaves the parameter as it is.
-        """
-        cycle, linearisation = predicted, predicted.linearisation
-        row = Direction(0.0 * predicted.nodal, 0.0, 1.0)
-        if not fixed_parameter:
-            row = self._dual(predicted, predicted.tangent)
-        last, last_change = np.inf, np.inf
-        for iteration in range(1, self._max_iterations + 1):
-            f, residual = self._residual(cycle)
-            size = np.abs(residual).max()
-            if not np.isfinite(size):
-                return None, iteration
-            if linearisation is None or size > _CHORD_RATE * last:
-                linearisation = self._linearise(cycle, f)
-            if linearisation is None:
-                return None, iteration
-            step = self._step(linearisation, residual, row)
-            cycle = cycle.moved(step, self.index)
-            change = max(np.abs(step.nodal).max(), abs(step.period) / cycle.period)
-            # The next change would be smaller by the rate seen so far.
-            rate = change / last_change if np.isfinite(last_change) else 1.0
-            if change * min(rate, 1.0) <= self._tolerance:
-                return self._finished(cycle, predicted), iteration
-            last, last_change = size, change
-        return None, self._max_iterations
-
-    def _step(
-        self, linearisation: Linearisation, residual: np.ndarray, row: Direction
-    ) -> Direction:
-        """Newton step x with v x = 0 for the wanted last row v.
-
-        The matrix may have another last row: with t = `column` all other rows give zero, so that
-        x - t (v x) / (v t) solves the system with the row v.
-        """
-        x = Direction(*collocation.solve(linearisation.factors, -residual, (0.0, 0.0)))
-        t = linearisation.column
-        return x.plus(t.scaled(-row.dot(x) / row.dot(t)))
-
-    def _finished(self, cycle: LimitCycle, predicted: LimitCycle) -> LimitCycle | None:
-        """The converged orbit with its own matrix, tangent and multipliers."""
-        f, residual = self._residual(cycle)
-        linearisation = self._linearise(cycle, f)
-        if linearisation is None or not cycle.period > 0.0:
-            return None
-        tangent = self._unit(cycle, linearisation.column)
-        if self.product(cycle, predicted.tangent, tangent) < 0.0:
-            tangent = tangent.scaled(-1.0)
-        bend = tangent.plus(predicted.tangent.scaled(-1.0))
-        return replace(
-            cycle,
+        """The orbit beside a prediction, with its matrix, tangent and multipliers."""
+        converged, iterations, orbit, residual, linearisation, tangent = orbit_corrector.correct(
+            self._equations(predicted.degree),
+            _unknowns(predicted),
+            predicted.tangent,
+            predicted.linearisation or _NO_LINEARISATION,
+            fixed_parameter,
+        )
+        self._evaluation.check()
+        if not converged:
+            return None, iterations
+        bend = None
+        if predicted.step:
+            bend = tangent.plus(predicted.tangent.scaled(-1.0)).scaled(1.0 / predicted.step)
+        cycle = replace(
+            predicted,
+            nodal=orbit.nodal,
+            period=orbit.period,
+            parameters=orbit.parameters[0],
             tangent=tangent,
-            curvature=bend.scaled(1.0 / predicted.step) if predicted.step else None,
+            curvature=bend,
             multipliers=floquet_multipliers(linearisation.factors),
-            residual=float(np.abs(residual).max()),
+            residual=residual,
             linearisation=linearisation,
         )
+        return cycle, iterations
 
-    def _at_gauss_points(self, nodal: np.ndarray, matrix: np.ndarray, degree: int) -> np.ndarray:
-        return matrix @ collocation.interval_values(nodal, degree)
-
-    def _residual(self, cycle: LimitCycle) -> tuple[np.ndarray, np.ndarray]:
-        """f and u' - T f at the Gauss points, (N, m, n)."""
-        base = collocation.basis(cycle.degree)
-        u = self._at_gauss_points(cycle.nodal, base.values, cycle.degree)
-        f = self.system.rhs(u.reshape(-1, u.shape[-1]), cycle.parameters).reshape(u.shape)
-        h = np.diff(cycle.mesh)[:, None, None]
-        slope = self._at_gauss_points(cycle.nodal, base.derivatives, cycle.degree) / h
-        return f, slope - cycle.period * f
-
-    def _linearise(self, cycle: LimitCycle, f: np.ndarray) -> Linearisation | None:
-        base = collocation.basis(cycle.degree)
-        h = np.diff(cycle.mesh)
-        u = self._at_gauss_points(cycle.nodal, base.values, cycle.degree)
-        states = u.reshape(-1, u.shape[-1])
-        J = self.system.jacobian(states, cycle.parameters).reshape(*u.shape, u.shape[-1])
-        f_p = self.system.rhs_parameter_derivative(states, cycle.parameters, self.index)
-        slope = (
-            self._at_gauss_points(cycle.nodal, base.derivatives, cycle.degree) / h[:, None, None]
+    def _equations(self, degree: int) -> orbit_corrector.Equations:
+        return orbit_corrector.Equations(
+            self._evaluation.evaluator,
+            collocation.basis(degree),
+            self.index,
+            self._weight,
+            self._tolerance,
+            self._max_iterations,
         )
-        nodal, period, parameter = cycle.tangent
-        arc = self._at_gauss_points(nodal, base.values, cycle.degree)
-        scalars = (period / cycle.period**2, parameter * self._weight)
-        try:
-            factors = collocation.factorise(
-                base, h, cycle.period, J, f, f_p.reshape(u.shape), slope, arc, scalars
-            )
-            column = Direction(*collocation.solve(factors, np.zeros_like(f), (0.0, 1.0)))
-        except np.linalg.LinAlgError:
-            return None
-        return Linearisation(factors, column) if np.isfinite(column.nodal).all() else None
 
     def product(self, cycle: LimitCycle, a: Direction, b: Direction) -> float:
         """Inner product of two directions: states over the period, period, scaled parameter."""
-        return self._dual(cycle, a).dot(b)
-
-    def _dual(self, cycle: LimitCycle, direction: Direction) -> Direction:
-        """Weights whose plain dot product with another direction is the inner product."""
-        base = collocation.basis(cycle.degree)
-        nodal = direction.nodal
-        local = base.mass @ collocation.interval_values(nodal, cycle.degree)
-        local *= np.diff(cycle.mesh)[:, None, None]
-        weights = np.zeros_like(nodal)
-        weights[:-1] = local[:, :-1].reshape(-1, nodal.shape[1])
-        weights[cycle.degree :: cycle.degree] += local[:, -1]
-        return Direction(
-            weights, direction.period / cycle.period**2, self._weight * direction.parameter
-        )
+        mass, h = collocation.basis(cycle.degree).mass, cycle.mesh[1:] - cycle.mesh[:-1]
+        return orbit_corrector.product(mass, h, float(cycle.period), self._weight, a, b)
 
     def _unit(self, cycle: LimitCycle, direction: Direction) -> Direction:
         length = np.sqrt(self.product(cycle, direction, direction))
@@ -295,6 +231,14 @@ class LimitCycleCurve:
             step=0.0,
             linearisation=None,
         )
+
+
+_NO_LINEARISATION = orbit_corrector.no_linearisation()
+
+
+def _unknowns(cycle: LimitCycle) -> orbit_corrector.Orbit:
+    h = cycle.mesh[1:] - cycle.mesh[:-1]
+    return orbit_corrector.Orbit(h, cycle.nodal, float(cycle.period), cycle.parameters[None])
 
 
 def floquet_multipliers(factors: BorderedFactors) -> np.ndarray:

@@ -2,43 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from tramdva.bifurcation import collocation
-from tramdva.bifurcation.collocation import BorderedFactors
-
-
-class Direction(NamedTuple):
-    """Change of an orbit: nodal values (N m + 1, n), period, parameter."""
-
-    nodal: np.ndarray
-    period: float
-    parameter: float
-
-    def scaled(self, factor: float) -> "Direction":
-        """The direction times a number."""
-        return Direction(self.nodal * factor, self.period * factor, self.parameter * factor)
-
-    def plus(self, other: "Direction") -> "Direction":
-        """Sum of two directions."""
-        return Direction(
-            self.nodal + other.nodal, self.period + other.period, self.parameter + other.parameter
-        )
-
-    def dot(self, other: "Direction") -> float:
-        """Plain dot product of all numbers."""
-        product = np.vdot(self.nodal, other.nodal) + self.period * other.period
-        return float(product + self.parameter * other.parameter)
-
-
-@dataclass(frozen=True)
-class Linearisation:
-    """Factorised matrix of an orbit and its solution for the right-hand side (0, .., 0, 1)."""
-
-    factors: BorderedFactors
-    column: Direction
+from tramdva.bifurcation.orbit_corrector import Direction, Linearisation
 
 
 @dataclass(frozen=True)

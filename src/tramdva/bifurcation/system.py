@@ -1,11 +1,33 @@
 """Smooth dynamical systems x' = f(x, p) and their derivatives."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 _COMPLEX_STEP = 1e-30
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """Compiled functions of a system, and the change of variables that belongs to them.
+
+    Attributes
+    ----------
+    functions : tuple
+        C functions of `tramdva.bifurcation.compiled.c_functions`.
+    origin, state, rate : (n,) array or number
+        x = origin + state * xi; d(xi)/d(tau) = rate * f.
+    parameters : (q,) array or number
+        Scales of the parameters.
+    """
+
+    functions: tuple[Any, ...]
+    origin: np.ndarray | float = 0.0
+    state: np.ndarray | float = 1.0
+    rate: np.ndarray | float = 1.0
+    parameters: np.ndarray | float = 1.0
 
 
 @dataclass(frozen=True)
@@ -26,12 +48,16 @@ class DynamicalSystem:
         Number n of states.
     parameter_names : tuple of str
         Names of the q parameters.
+    kernels : Kernels, optional
+        The same functions compiled. Without them the compiled correctors call the Python functions
+        back: the numbers are the same, the time is that of Python.
     """
 
     rhs: Callable[[np.ndarray, np.ndarray], np.ndarray]
     jacobian: Callable[[np.ndarray, np.ndarray], np.ndarray]
     dimension: int
     parameter_names: tuple[str, ...]
+    kernels: Kernels | None = None
 
     def index(self, parameter: str) -> int:
         """Position of a parameter in the vector p."""
@@ -138,4 +164,13 @@ def rescaled(system: DynamicalSystem, scaling: Scaling) -> DynamicalSystem:
     def jacobian(states: np.ndarray, parameters: np.ndarray) -> np.ndarray:
         return matrix * system.jacobian(scaling.to_states(states), physical(parameters))
 
-    return DynamicalSystem(rhs, jacobian, system.dimension, system.parameter_names)
+    kernels = system.kernels
+    if kernels is not None:
+        kernels = replace(
+            kernels,
+            origin=kernels.origin + kernels.state * scaling.origin,
+            state=kernels.state * scaling.state,
+            rate=kernels.rate * rate,
+            parameters=kernels.parameters * scaling.parameters,
+        )
+    return DynamicalSystem(rhs, jacobian, system.dimension, system.parameter_names, kernels)

@@ -53,7 +53,7 @@ def receptances(
     ----------
     system, equilibrium : of the vehicle without absorbers
     bogie : RoughBogie of the same
-    absorber : bogie_parameters.BogieAbsorber, for places and direction
+    absorber : bogie.parameters.BogieAbsorber, for places and direction
     angular_frequency : (f,) rad/s
     source : (f, 4, zones) complex radius deviations at the contacts in m
     """

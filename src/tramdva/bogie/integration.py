@@ -124,6 +124,10 @@ def steady(modes: int, curvatures: np.ndarray) -> Passage:
     return Passage(load, np.vstack([curvatures, np.zeros(3)]))
 
 
+# Functions that are called in one place are inlined: the rest of the chain is then compiled once
+# instead of once per level.
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def _copy(source, target):
     """Copy element by element: `target[:] = source` compiles seconds of error messages."""

@@ -1,7 +1,7 @@
 """The parameters as one table: for messages, for editors and for `config/README.md`.
 
-`python -m tramdva.configuration.reference config` rewrites `schema.json` and the table in `README.md`
-there.
+`python -m tramdva.configuration.reference config` rewrites `schema.json` and the table in the
+`README.md` of that folder.
 """
 
 from __future__ import annotations

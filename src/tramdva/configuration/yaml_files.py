@@ -9,6 +9,7 @@ neither 1:30 nor 0700 stands for a number that nobody meant; dates are texts.
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -67,6 +68,12 @@ _NOTATIONS = (
     ("float", r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)", "-+."),
     ("merge", r"<<", "<"),
 )
+for _tag, _pattern, _first in _NOTATIONS:
+    _Loader.add_implicit_resolver(
+        f"tag:yaml.org,2002:{_tag}",
+        re.compile(f"(?:{_pattern})$"),
+        [*_first, *([""] if _tag == "null" else [])],
+    )
 
 
 def read(path: Path) -> tuple[dict[str, Any] | None, list[str]]:
@@ -135,3 +142,7 @@ def main(files: Sequence[str]) -> int:
     slips = [f"{name}: {slip}" for name in files for slip in read(Path(name))[1]]
     print("\n".join(slips), end="\n" if slips else "", file=sys.stderr)
     return 1 if slips else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

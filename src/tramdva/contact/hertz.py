@@ -11,6 +11,8 @@ The functions hold complete elliptic integrals (Johnson, Contact Mechanics, 1985
 evaluated by SciPy when the table is built and by cubic Hermite interpolation in the loop.
 """
 
+import functools
+
 import numpy as np
 import scipy  # its parts load when they are used: many short jobs need none
 from numba import njit
@@ -69,8 +71,12 @@ def ellipse_functions(log_curvature_ratio: float) -> np.ndarray:
     return np.array([normal, minor, major])
 
 
+@functools.cache
 def hertz_table() -> np.ndarray:
-    """Table of c_N, c_a, c_b over ln(B / A) for `hertz_ellipse`, relative error below 1e-7."""
+    """Table of c_N, c_a, c_b over ln(B / A) for `hertz_ellipse`, relative error below 1e-7.
+
+    Made once per process; nobody may write to it.
+    """
     count = round(2.0 * LOG_RATIO_LIMIT / LOG_RATIO_STEP) + 1
     nodes = np.linspace(-LOG_RATIO_LIMIT, LOG_RATIO_LIMIT, count)
     values = np.array([ellipse_functions(node) for node in nodes])

@@ -7,6 +7,8 @@ flexibilities have continuous slopes; at the nodes it is the table. Outside 0.1 
 asymptotes of Kalker continue the table, scaled to meet it at its ends.
 """
 
+import functools
+
 import numpy as np
 from numba import njit
 
@@ -95,8 +97,12 @@ def _nodes(poisson_ratio: float) -> tuple[np.ndarray, np.ndarray]:
     return np.log(ratio), np.vstack([low, middle, high])
 
 
+@functools.cache
 def kalker_table(poisson_ratio: float) -> np.ndarray:
-    """Table of 1 / C11, 1 / C22, 1 / C23 over ln(a / b) for `creep_coefficients`."""
+    """Table of 1 / C11, 1 / C22, 1 / C23 over ln(a / b) for `creep_coefficients`.
+
+    Made once per process; nobody may write to it.
+    """
     log_ratio, coefficients = _nodes(poisson_ratio)
     return sample_spline(
         log_ratio, 1.0 / coefficients, -LOG_RATIO_LIMIT, LOG_RATIO_STEP, LOG_RATIO_COUNT

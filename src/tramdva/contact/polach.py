@@ -1,7 +1,8 @@
 """Polach's creep force of one contact with longitudinal, lateral and spin creepage, compiled.
 
 Polach, Proc. Instn Mech. Engrs 213 F (1999): force from the gradient of the tangential stress.
-`tramdva.creep_force` has the lateral force alone with its derivatives, and the friction law.
+`tramdva.contact.creep_force` has the lateral force alone with its derivatives, and the friction
+law.
 """
 
 import numpy as np

@@ -9,6 +9,7 @@ bytes but for the date in the crate.
 from __future__ import annotations
 
 import gzip
+import sys
 import tarfile
 from collections.abc import Iterable, Sequence
 from importlib.metadata import version
@@ -16,7 +17,7 @@ from pathlib import Path
 
 from tramdva import results
 from tramdva.record import crate, run_record
-from tramdva.record.run_record import Made
+from tramdva.record.run_record import IncompleteRunError, Made
 
 
 def write(arguments: Sequence[str]) -> Path:
@@ -67,3 +68,10 @@ def _without_owner(entry: tarfile.TarInfo) -> tarfile.TarInfo:
     entry.uid = entry.gid = 0
     entry.uname = entry.gname = ""
     return entry
+
+
+if __name__ == "__main__":
+    try:
+        print(f"tramdva: {write(sys.argv[1:])} holds the sources, the run and its crate")
+    except IncompleteRunError as error:
+        sys.exit("\n".join(f"tramdva: no archive: {line}" for line in str(error).splitlines()))

@@ -14,6 +14,7 @@ import json
 import mimetypes
 import platform
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -42,6 +43,7 @@ FORMATS = {
     ".cff": "application/yaml",
 }
 WORKFLOW = "Snakefile"
+SCRIPTS = {"results": "workflow/scripts", "paper_figures": "paper_figures"}  # of files below
 CODE = re.compile("[0-9a-f]{20}")  # a hash of code among the parameters of a job
 LOCKED = re.compile(r"^([A-Za-z0-9._-]+)==([^ ;\\]+)", re.MULTILINE)
 
@@ -216,7 +218,7 @@ def _packages() -> Iterator[Entity]:
 def _file(path: str) -> Entity:
     """Describe a file by its size, checksum and format; a script is a program as well."""
     kind = FORMATS.get(Path(path).suffix) or mimetypes.guess_type(path)[0]
-    is_code = path.endswith(".py") or path == WORKFLOW
+    is_code = path.endswith((".py", ".smk")) or path == WORKFLOW
     return {
         "@id": path,
         "@type": ["File", "SoftwareSourceCode"] if is_code else "File",
@@ -247,7 +249,7 @@ def _jobs(made: Sequence[Made]) -> Iterator[Entity]:
             "@id": f"#job/{first.path}",
             "@type": "CreateAction",
             "name": rule,
-            "instrument": {"@id": script_of(rule)},
+            "instrument": {"@id": script_of(first.path)},
             "object": _refer([*first.inputs, *(value["@id"] for value in _values(first))]),
             "result": _refer(file.path for file in files),
             "startTime": _time(first.record["starttime"]),
@@ -256,26 +258,39 @@ def _jobs(made: Sequence[Made]) -> Iterator[Entity]:
         }
 
 
-def script_of(rule: str) -> str:
-    """Return the script of a rule, which bears its name; the Snakefile for one without."""
-    for folder in ("workflow/scripts", "paper_figures"):
-        if Path(folder, f"{rule}.py").is_file():
-            return f"{folder}/{rule}.py"
-    return WORKFLOW
+def script_of(path: str) -> str:
+    """Return the script that makes a file, whose name it bears; the Snakefile if there is none.
+
+    The files of a stage of many jobs lie in a folder that bears the name.
+    """
+    top, _, *name = Path(path).with_suffix("").parts
+    folder = SCRIPTS.get(top)
+    script = f"{folder}/{name[0]}.py" if folder and name else ""
+    return script if Path(script).is_file() else WORKFLOW
 
 
 def _values(file: Made) -> Iterator[Entity]:
-    """Describe the parameters of a job; jobs with the same ones share the entity."""
+    """Describe the parameters of a job; jobs with the same ones share the entity.
+
+    A name among them is that of the script, which the job tells already.
+    """
     for value in file.values:
-        is_code = isinstance(value, str) and CODE.fullmatch(value)
+        if value == Path(script_of(file.path)).stem:
+            continue
         text = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
         digest = hashlib.sha256(text.encode()).hexdigest()[:16]
         yield {
             "@id": f"#value-{digest}",
             "@type": "PropertyValue",
-            "name": "hash of the code" if is_code else "values of the configuration",
+            "name": _meaning(value),
             "value": text,
         }
+
+
+def _meaning(value: Any) -> str:
+    if isinstance(value, str) and CODE.fullmatch(value):
+        return "hash of the code"
+    return "orders of the wheels" if isinstance(value, list) else "values of the configuration"
 
 
 def _run(made: Sequence[Made], jobs: Sequence[Entity], arguments: Sequence[str]) -> list[Entity]:
@@ -312,3 +327,11 @@ def _time(seconds: float) -> str:
 
 def _refer(names: Iterable[str]) -> list[dict[str, str]]:
     return [{"@id": name} for name in dict.fromkeys(names)]
+
+
+if __name__ == "__main__":
+    try:
+        described = write(sys.argv[1:])
+    except IncompleteRunError as error:
+        sys.exit("\n".join(f"tramdva: no crate: {line}" for line in str(error).splitlines()))
+    print(f"tramdva: {NAME} describes {len(described)} files of the run and how they were made")

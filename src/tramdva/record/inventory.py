@@ -32,8 +32,8 @@ def take_back_dates(*folders: str) -> None:
     *folders : str
         Where the files of the pipeline are.
     """
-    files = (path for name in folders for path in Path(name).rglob("*") if path.is_file())
-    dates = sorted((path.stat().st_mtime_ns, path) for path in files)
+    files = (file for name in folders for file in _files(name))
+    dates = sorted((file.stat().st_mtime_ns, file.path) for file in files)
     ahead = (dates[-1][0] if dates else 0) - time.time_ns()
     if ahead <= 0:
         return
@@ -58,9 +58,24 @@ def set_aside_unusable(configuration: Configuration, scripts: Path) -> None:
         Folder of the scripts of the stages.
     """
     for line in configuration.lines:
-        for path in sorted(Path("results", line).rglob("*.nc")):
-            if not _recorded(path) and (fault := _fault(path, configuration, line, scripts)):
+        files = (file for file in _files(f"results/{line}") if file.name.endswith(".nc"))
+        foreign = sorted(Path(file.path) for file in files if not _recorded(file))
+        for path in foreign:
+            if fault := _fault(path, configuration, line, scripts):
                 _set_aside(path, fault)
+
+
+def _files(folder: str) -> Iterator[os.DirEntry[str]]:
+    """Yield all files below a folder; links to folders are not followed."""
+    try:
+        entries = list(os.scandir(folder))
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        return
+    for entry in entries:
+        if entry.is_dir(follow_symlinks=False):
+            yield from _files(entry.path)
+        elif entry.is_file():
+            yield entry
 
 
 def _set_aside(path: Path, fault: str) -> None:
@@ -72,11 +87,12 @@ def _set_aside(path: Path, fault: str) -> None:
     supervision.say(f"{fault}; it is now {aside.name} and will be made again")
 
 
-def _recorded(path: Path) -> bool:
+def _recorded(file: os.DirEntry[str]) -> bool:
     """Tell whether Snakemake made exactly this file, by the date in its record."""
-    record = supervision.FOLDER / "metadata" / urlsafe_b64encode(str(path).encode()).decode()
+    record = f"{supervision.FOLDER}/metadata/{urlsafe_b64encode(file.path.encode()).decode()}"
     try:
-        return json.loads(record.read_text(encoding="utf-8"))["endtime"] == path.stat().st_mtime
+        with open(record, "rb") as opened:  # noqa: PTH123 - hundreds before each run
+            return json.load(opened)["endtime"] == file.stat().st_mtime
     except (OSError, ValueError, KeyError):
         return False
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import ast
 import functools
 import hashlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
+
+from tramdva.running.cache_folders import cache_roots
+from tramdva.running.parsed_code import ParsedCode, parsed, use_store
 
 PACKAGE = Path(__file__).parents[1]
 # Modules that cannot change a result.
@@ -18,7 +21,8 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     """Hash the code that a script reaches.
 
     Counted are the syntax trees, without docstrings, of the script and of each module of tramdva
-    that it imports, directly or through others. Comments, formatting and dates do not matter.
+    that it imports, directly or through others. Comments, formatting, dates and the version of
+    Python do not matter.
 
     Parameters
     ----------
@@ -34,10 +38,10 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     str
         20 hexadecimal digits.
     """
-    script = Path(script)
-    digest = hashlib.sha256(tree_hash(script))
-    for name in sorted(reached_modules(script, package)):
-        digest.update(name.encode() + tree_hash(module_file(name, package)))
+    own = read_module(script)
+    digest = hashlib.sha256(own.code.digest.encode())
+    for name, module in sorted(reached_from(own, package).items()):
+        digest.update((name + module.code.digest).encode())
     for path in data:
         digest.update(Path(path).read_bytes())
     return digest.hexdigest()[:20]
@@ -45,79 +49,57 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
 
 def reached_modules(script: Path, package: Path = PACKAGE) -> set[str]:
     """Name all modules of tramdva that a script imports, directly or through others."""
-    reached: set[str] = set()
-    waiting = list(_imported(script, package))
+    return set(reached_from(read_module(script), package))
+
+
+class Module(NamedTuple):
+    """A file of code and what it says."""
+
+    path: str
+    code: ParsedCode
+
+
+def reached_from(own: Module, package: Path) -> dict[str, Module]:
+    """Return all modules that a file imports, directly or through others."""
+    met: dict[str, Module | None] = {}  # all names, which need not be modules
+    reached: dict[str, Module] = {}
+    waiting = list(_imported(own, package, met))
     while waiting:
         name = waiting.pop()
         if name not in reached and name not in WITHOUT_EFFECT:
-            reached.add(name)
-            waiting += _imported(module_file(name, package), package)
+            reached[name] = met[name]
+            waiting += _imported(met[name], package, met)
     return reached
 
 
-def _imported(path: Path, package: Path) -> Iterator[str]:
-    for name in _absolute_imports(path):
+def _imported(own: Module, package: Path, met: dict[str, Module | None]) -> Iterator[str]:
+    for name in own.code.imports:
         parts = name.split(".")
         modules = [".".join(parts[:end]) for end in range(1, len(parts) + 1)]
-        files = [module for module in modules if module_file(module, package).is_file()]
-        if len(files) < min(2, len(parts)):
-            raise ValueError(f"{path}: there is no module {name}")
-        yield from files
+        for module in modules:
+            if module not in met:
+                path = _file(module, package)
+                met[module] = read_module(path) if path else None
+        found = [module for module in modules if met[module]]
+        if len(found) < min(2, len(parts)):
+            raise ValueError(f"{own.path}: there is no module {name}")
+        yield from found
 
 
-def module_file(module: str, package: Path) -> Path:
-    """Return the file of a module of the package by its full name."""
-    path = package.joinpath(*module.split(".")[1:])
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+def _file(module: str, package: Path) -> str:
+    """Find the file of a module; nothing where there is none."""
+    place = os.path.join(package, *module.split(".")[1:])  # noqa: PTH118 - a thousand times a start
+    candidates = (f"{place}/__init__.py", f"{place}.py")
+    return next(filter(os.path.isfile, candidates), "")
 
 
-def _absolute_imports(path: Path) -> tuple[str, ...]:
-    return _parsed_now(path).imports
-
-
-def tree_hash(path: Path) -> bytes:
-    """Hash the syntax tree of a file without its docstrings."""
-    return _parsed_now(path).digest
-
-
-class _Parsed(NamedTuple):
-    """Modules of tramdva that a file imports; hash of its syntax tree."""
-
-    imports: tuple[str, ...]
-    digest: bytes
-
-
-def _parsed_now(path: Path) -> _Parsed:
-    status = path.stat()
-    return _parsed(path, status.st_mtime_ns, status.st_size)
+def read_module(path: str | Path) -> Module:
+    """Read a file of code."""
+    _use_store()
+    return Module(os.fspath(path), parsed(path))
 
 
 @functools.cache
-def _parsed(path: Path, mtime_ns: int, size: int) -> _Parsed:
-    tree = ast.parse(path.read_bytes(), filename=str(path))
-    imports: list[str] = []
-    _drop_docstring(tree)
-    for node in _statements(tree):
-        _drop_docstring(node)
-        if isinstance(node, ast.Import):
-            imports += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                raise ValueError(f"{path}: line {node.lineno}: relative imports are not followed")
-            imports += [f"{node.module}.{alias.name}" for alias in node.names]
-    own = tuple(name for name in imports if name.split(".")[0] == "tramdva")
-    return _Parsed(own, hashlib.sha256(ast.dump(tree).encode()).digest())
-
-
-def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield all statements below a node; expressions, which are far more, are passed over."""
-    for block in ("body", "orelse", "handlers", "finalbody", "cases"):
-        for statement in getattr(node, block, ()):
-            yield statement
-            yield from _statements(statement)
-
-
-def _drop_docstring(node: ast.AST) -> None:
-    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
-        node.body = node.body[1:]
+def _use_store() -> None:
+    """Parse nothing that another process has parsed."""
+    use_store(list(cache_roots()))

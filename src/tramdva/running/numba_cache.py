@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from contextlib import suppress
+from importlib import metadata
 from pathlib import Path
 
-from tramdva.running.code_hash import PACKAGE, module_file, reached_modules, tree_hash
+from tramdva.running.cache_folders import cache_roots
+from tramdva.running.code_hash import PACKAGE, reached_from, read_module
 
-COMPILED = re.compile(rb"^ *@.*jit\b", re.MULTILINE)  # decorators of Numba
 UNUSED_AFTER = 30 * 86400  # seconds after which a folder of compiled code is removed
 
 
@@ -38,8 +37,10 @@ def compile_kernels_once(package: Path = PACKAGE) -> None:
     A kernel that was just compiled and the same kernel out of the cache can differ in the last
     bit: each is optimised with other functions in sight. So all jobs take theirs from the cache.
     """
-    # Numba keeps what it compiled by the place and the date of the sources.
-    places = "".join(f"{path} {path.stat().st_mtime_ns};" for path in compiled_files(package))
+    # Numba keeps what it compiled by its own version, that of Python, and the place and the date
+    # of the sources.
+    places = "".join(f"{path} {path.stat().st_mtime_ns};" for path in _compiled_files(package))
+    places += f"{sys.version_info[:2]} {metadata.version('numba')}"
     name = f"complete-{hashlib.sha256(places.encode()).hexdigest()[:20]}"
     done = Path(os.environ["NUMBA_CACHE_DIR"]) / name
     if done.is_file():
@@ -53,7 +54,7 @@ def compile_kernels_once(package: Path = PACKAGE) -> None:
 
 def _numba_cache_folder(package: Path) -> Path:
     name = f"sources-{_compiled_code_hash(package)}"
-    for root in _cache_roots():
+    for root in cache_roots():
         folder = root if root.name == name else root / name
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -68,27 +69,20 @@ def _numba_cache_folder(package: Path) -> Path:
 
 def _compiled_code_hash(package: Path) -> str:
     """Hash the modules that compile functions and everything that they import."""
-    files = set(compiled_files(package))
-    for path in tuple(files):
-        files |= {module_file(name, package) for name in reached_modules(path, package)}
+    modules = {}
+    for path in _compiled_files(package):
+        own = read_module(path)
+        found = (own, *reached_from(own, package).values())
+        modules |= {os.path.relpath(module.path, package): module for module in found}
     digest = hashlib.sha256()
-    for path in sorted(files):
-        digest.update(str(path.relative_to(package)).encode() + tree_hash(path))
+    for place, module in sorted(modules.items()):
+        digest.update((place + module.code.digest).encode())
     return digest.hexdigest()[:20]
 
 
-def compiled_files(package: Path) -> list[Path]:
+def _compiled_files(package: Path) -> list[Path]:
     """Name the modules that compile functions."""
-    return [path for path in sorted(package.rglob("*.py")) if COMPILED.search(path.read_bytes())]
-
-
-def _cache_roots() -> Iterator[Path]:
-    if given := os.environ.get("NUMBA_CACHE_DIR"):
-        path = Path(given)
-        yield path.parent if path.name.startswith("sources-") else path
-    home = os.environ.get("XDG_CACHE_HOME") or Path("~").expanduser() / ".cache"
-    yield Path(home) / "tramdva"
-    yield Path.cwd() / ".snakemake" / "tramdva"
+    return [path for path in sorted(package.rglob("*.py")) if read_module(path).code.compiles]
 
 
 def _remove_unused(current: Path) -> None:

@@ -5,7 +5,6 @@ neither the vehicle's matrices nor their assembly.
 """
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -40,7 +39,7 @@ def compute(
     order: int,
     contact_geometry: Mapping[str, np.ndarray],
     bogie_linearisation: Mapping[str, np.ndarray],
-    file_of: Callable[[str], Path] = Path,
+    file_of: Callable[[str], Any] = str,
 ) -> dict[str, np.ndarray]:
     """Simulate the bogie on wheels with waves of one order.
 

@@ -1,7 +1,6 @@
 """The stage `contact_geometry`: contact tables of the profiles of a line."""
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from tramdva.variables.contact_geometry import VARIABLES
 __all__ = ["VARIABLES", "compute"]
 
 
-def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Path] = Path) -> dict[str, np.ndarray]:
+def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict[str, np.ndarray]:
     """Contact tables of the line's profiles: variables of ``contact_geometry.nc``.
 
     Parameters

@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from tramdva.bifurcation.hopf import HopfPoint
+from tramdva.bifurcation import hopf
+from tramdva.bifurcation.continuation import StepControl
 from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
-from tramdva.wear.chart import WearChart
+from tramdva.wear.chart import CHART, WearChart
 from tramdva.wear.passages import ContactHistory, passages
 from tramdva.wheelset import model
 
@@ -20,7 +21,7 @@ def compile_kernels() -> None:
     """Call every compiled function once with each combination of types that the stages use."""
     with np.errstate(all="ignore"):
         _wheelset()
-        _collocation()
+        _bifurcation()
         contacts = _contacts()
         _wear(contacts.law)
         _bogie(contacts)
@@ -35,24 +36,28 @@ def _wheelset() -> None:
             model.accelerations(states, parameters)
             model.jacobian(states, parameters)
         model.linearised(_NUMBERS, mounted)
+        model.dynamical_system(_NUMBERS, mounted)
         try:
             model.equilibrium(_NUMBERS, mounted)
         except ArithmeticError:
             continue
 
 
-def _collocation() -> None:
-    """One corrector step on an orbit of x'' - p x' + x = 0, near p = 0."""
+def _bifurcation() -> None:
+    """Two Hopf points of x'' - (p + q) x' + x = 0 and one corrector step on an orbit near them."""
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     system = DynamicalSystem(
-        rhs=lambda states, p: states @ turn.T + p[0] * states,
-        jacobian=lambda states, p: np.tile(turn + p[0] * np.eye(2), (len(states), 1, 1)),
+        rhs=lambda states, p: states @ turn.T + (p[0] + p[1]) * states,
+        jacobian=lambda states, p: np.tile(turn + (p[0] + p[1]) * np.eye(2), (len(states), 1, 1)),
         dimension=2,
-        parameter_names=("p",),
+        parameter_names=("p", "q"),
     )
-    hopf = HopfPoint(np.zeros(2), np.array([1.0, 1.0j]), 1.0, np.zeros(1), 0.0, True)
+    point = hopf.solve_hopf_point(system, np.zeros(2), np.array([0.01, 0.0]), "p")
+    window = {"p": (-1.0, 1.0), "q": (-1.0, 1.0)}
+    steps = StepControl(0.1, 0.1, 0.1, max_points=2)
+    hopf.hopf_curve(system, point, ("p", "q"), window, steps, direction=1, component=0)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
-    curve.correct(curve.predict(curve.start(hopf, 2, 4), 0.1))
+    curve.correct(curve.predict(curve.start(point, 2, 4), 0.1))
 
 
 def _contacts() -> wheel_forces.Contacts:
@@ -69,7 +74,8 @@ def _contacts() -> wheel_forces.Contacts:
 
 
 def _wear(law: patch.ContactLaw) -> None:
-    grid, chart = law.grid, WearChart()
+    grid, numbers = law.grid, dict.fromkeys(WearChart._fields, 1.0)
+    chart = WearChart(**numbers | {"method": CHART})
     moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
     passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)

@@ -60,7 +60,7 @@ def _share_above(excess, along, across):
     along, across : change of the field over the cell in both directions, absolute values
     """
     wide, narrow = max(along, across), min(along, across)
-    if wide <= 0.0:
+    if 2.0 * abs(excess) >= wide + narrow:  # the limit does not cut the cell
         return 1.0 if excess > 0.0 else 0.0
     if narrow < 1e-6 * wide:
         return min(max(excess / wide + 0.5, 0.0), 1.0)

@@ -21,7 +21,7 @@ def worn_area(inputs, flexibility, grid: PatchGrid, rolling_speed: float, chart:
 
     Parameters
     ----------
-    inputs : (7,) as the fields of `wear_history.ContactHistory`, SI
+    inputs : (7,) as the fields of `wear.passages.ContactHistory`, SI
     flexibility : (3,) in m/Pa, from `kalker.flexibilities`
     grid : PatchGrid
     rolling_speed : m/s

@@ -7,13 +7,7 @@ from numba import njit
 
 from tramdva.contact import kalker, traction_field
 from tramdva.contact.fastsim import PatchGrid
-from tramdva.contact.traction_field import TractionField
 from tramdva.wear.chart import CHART, REGIONS, WearChart, wear_coefficient, wear_region
-
-
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _slip(field, k, j):
-    return np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -25,16 +19,22 @@ def _changes(values, k, j, strips):
     return along, abs(values[k, right] - values[k, left]) / (right - left)
 
 
+AREAS = (*REGIONS, "adhesion")
+ADHESION = len(REGIONS)
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
-def archard_depth(field, rolling_speed, chart, strip_depth):
-    """Wear depth of every strip for one passage of the patch.
+def archard_depth(field, rolling_speed, chart, slip, strip_depth, areas):
+    """Wear depth of every strip for one passage of the patch, and where it comes from.
 
     Parameters
     ----------
     field : TractionField of the patch
     rolling_speed : m/s
     chart : WearChart
+    slip : (intervals, strips) array to work in
     strip_depth : (strips,) array, receives the depth in m
+    areas : (5,) array, receives the area in m^2 of the cells of each of `AREAS`
 
     Returns
     -------
@@ -42,61 +42,32 @@ def archard_depth(field, rolling_speed, chart, strip_depth):
         times 2 pi R the volume of one revolution).
     """
     strip_depth[:] = 0.0
-    slip, strips = np.empty(field.area.shape), 0
+    areas[:] = 0.0
+    strips = 0
     for j in range(slip.shape[1]):
         strips += field.area[0, j] > 0.0  # padding strips come last
     for k in range(slip.shape[0]):
-        for j in range(slip.shape[1]):
-            slip[k, j] = _slip(field, k, j)
+        for j in range(strips):
+            slip[k, j] = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
     worn_area, speed = 0.0, abs(rolling_speed)
     sharp = chart.method == CHART
     pressure_change = slip_change = (0.0, 0.0)
     for k in range(slip.shape[0]):
         for j in range(strips):
             if slip[k, j] == 0.0:
+                areas[ADHESION] += field.area[k, j]
                 continue
-            pressure = field.pressure[k, j]
+            pressure, velocity = field.pressure[k, j], speed * slip[k, j]
+            areas[wear_region(pressure, velocity, chart)] += field.area[k, j]
             if sharp:
                 pressure_change = _changes(field.pressure, k, j, strips)
                 along, across = _changes(slip, k, j, strips)
                 slip_change = speed * along, speed * across
-            coefficient = wear_coefficient(
-                pressure, speed * slip[k, j], chart, pressure_change, slip_change
-            )
+            coefficient = wear_coefficient(pressure, velocity, chart, pressure_change, slip_change)
             depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart.hardness
             strip_depth[j] += depth
             worn_area += depth * field.area[k, j] / field.length_x[k, j]
     return worn_area
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def region_areas(field, rolling_speed, chart, areas):
-    """Area in m^2 of the patch in every region of the chart, and of adhesion.
-
-    `areas` is a (5,) array: the four REGIONS (cells that slide), then cells without slip.
-    """
-    for region in range(areas.size):
-        areas[region] = 0.0
-    for k in range(field.area.shape[0]):
-        for j in range(field.area.shape[1]):
-            slip = _slip(field, k, j)
-            region = 4
-            if slip > 0.0:
-                region = wear_region(field.pressure[k, j], slip * abs(rolling_speed), chart)
-            areas[region] += field.area[k, j]
-
-
-def region_shares(field: TractionField, rolling_speed: float, chart: WearChart) -> dict[str, float]:
-    """Share of the patch area in each region, and `adhesion`; sums to one in contact."""
-    areas = np.zeros(5)
-    region_areas(field, rolling_speed, chart, areas)
-    total = areas.sum()
-    names = (*REGIONS, "adhesion")
-    shares = areas / total if total > 0.0 else areas
-    return dict(zip(names, shares, strict=True))
-
-
-AREAS = (*REGIONS, "adhesion")
 
 
 class ContactHistory(NamedTuple):
@@ -125,7 +96,7 @@ class Passages(NamedTuple):
 @njit(cache=True, nogil=True, error_model="numpy")
 def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, chart, out):
     area, shares = out
-    depth = np.empty(grid.offset.size)
+    depth, slip = np.empty(grid.offset.size), np.empty(field.area.shape)
     for i in range(area.size):
         a, b, normal = history[0, i], history[1, i], history[2, i]
         if not normal > 0.0:
@@ -135,8 +106,7 @@ def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, 
             a, b, normal, history[3, i], history[4, i], history[5, i], history[6, i],
             flexibility, grid, field,
         )  # fmt: skip
-        area[i] = archard_depth(field, rolling_speed, chart, depth)
-        region_areas(field, rolling_speed, chart, shares[i])
+        area[i] = archard_depth(field, rolling_speed, chart, slip, depth, shares[i])
         shares[i] /= shares[i].sum()
 
 
@@ -188,9 +158,21 @@ def wear_orders(area: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
     moves ahead it spreads this over a longer stretch. The integral of the cross-section times
     exp(-i n angle) over the angle is therefore that of area exp(-i n angle) over time.
     """
-    orders = 2.0 / area.size * (np.exp(-1j * np.outer(np.arange(count), angle)) @ area)
+    orders = 2.0 / area.size * _fourier_sums(area, np.exp(-1j * angle), count)
     orders[0] *= 0.5
     return orders
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _fourier_sums(area, turn, count):
+    """Sums (count,) of area turn^n, powers by multiplication: they err by n times the rounding."""
+    sums = np.zeros(count, np.complex128)
+    for k in range(area.size):
+        term = complex(area[k], 0.0)
+        for n in range(count):
+            sums[n] += term
+            term *= turn[k]
+    return sums
 
 
 def depth_around(orders: np.ndarray, angle: np.ndarray) -> np.ndarray:

@@ -13,11 +13,14 @@ Equations (1)-(8) and the system matrix of the appendix of the paper.
 """
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import carray
 
-from tramdva.bifurcation.system import DynamicalSystem, Scaling, rescaled
+from tramdva.bifurcation import compiled
+from tramdva.bifurcation.system import DynamicalSystem, Kernels, Scaling, rescaled
 from tramdva.contact.creep_force import (
     creep_force,
     creep_force_derivatives,
@@ -418,5 +421,22 @@ def dynamical_system(values: WheelsetParameters, with_absorber: bool) -> Dynamic
         jacobian=jacobian,
         dimension=6 if with_absorber else 4,
         parameter_names=values._fields,
+        kernels=_kernels(),
     )
     return rescaled(system, scaling(values, with_absorber))
+
+
+def _rhs_by_address(states, m, n, parameters, rows, q, out):
+    """`_rhs` as `tramdva.bifurcation.compiled` calls it."""
+    carray(out, (m, n))[:] = _rhs(carray(states, (m, n)), carray(parameters, (rows, q)))
+
+
+def _jacobian_by_address(states, m, n, parameters, rows, q, out):
+    """`_jacobian` likewise."""
+    carray(out, (m, n, n))[:] = _jacobian(carray(states, (m, n)), carray(parameters, (rows, q)))
+
+
+@cache
+def _kernels() -> Kernels | None:
+    functions = compiled.c_functions(_rhs_by_address, _jacobian_by_address)
+    return None if functions is None else Kernels(functions)

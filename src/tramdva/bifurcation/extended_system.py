@@ -1,0 +1,322 @@
+"""The extended system of Hopf points, compiled: residual, matrix, correctors, normal form.
+
+The unknowns are z = (x, u_R, u_I, omega, p_1 [, p_2]), the equations ::
+
+    f(x, p) = 0,   J u_R + omega u_I = 0,   J u_I - omega u_R = 0,   u_R[k] = 1,   u_I[k] = 0
+
+References
+----------
+Equations (9) and (10) of the paper; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory,
+sections 5.4 and 10.2.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tramdva.bifurcation.compiled import STEP, Evaluator, jacobian_matrices, right_hand_sides
+from tramdva.bifurcation.elimination import factor, jit, largest_magnitude, substitute
+
+# A step with an old matrix must shrink the residual by this factor, else Newton begins anew.
+_CHORD_RATE = 0.2
+_CHORD_STEPS = 10
+# Points of Cauchy's formula on the upper half of the circle, both ends included.
+_ARC = 7
+
+
+class Unknowns(NamedTuple):
+    """What the extended system is made of.
+
+    Attributes
+    ----------
+    system : Evaluator
+    parameters : (q,) array
+        Values of all parameters; the free ones are replaced.
+    free : (1,) or (2,) int array
+        Positions of the free parameters.
+    component : int
+        k, in which the eigenvector is 1.
+    """
+
+    system: Evaluator
+    parameters: np.ndarray
+    free: np.ndarray
+    component: int
+
+
+@jit
+def _row(unknowns, z):
+    """Parameters at z, (1, q)."""
+    row = unknowns.parameters.copy().reshape(1, -1)
+    first = z.size - unknowns.free.size
+    for i in range(unknowns.free.size):
+        row[0, unknowns.free[i]] = z[first + i]
+    return row
+
+
+@jit
+def residual(unknowns, z):
+    """Residual (3 n + 2,), and J (n, n) for the matrix."""
+    n, k = unknowns.system.state.size, unknowns.component
+    row, state = _row(unknowns, z), z[:n].copy().reshape(1, n)
+    f = right_hand_sides(unknowns.system, state, row)
+    J = jacobian_matrices(unknowns.system, state, row)[0]
+    omega = z[3 * n]
+    G = np.empty(3 * n + 2)
+    for i in range(n):
+        real, imaginary = omega * z[2 * n + i], -omega * z[n + i]
+        for j in range(n):
+            real += J[i, j] * z[n + j]
+            imaginary += J[i, j] * z[2 * n + j]
+        G[i], G[n + i], G[2 * n + i] = f[0, i], real, imaginary
+    G[3 * n] = z[n + k] - 1.0
+    G[3 * n + 1] = z[2 * n + k]
+    return G, J
+
+
+@jit
+def matrix(unknowns, z, J, last_row):
+    """Derivative of the residual in z, and below it a last row where one is free, (N, N).
+
+    ::
+
+                 x        u_R      u_I      omega   p
+        f     [  J        .        .        .       f_p     ]
+        u_R   [  (J u_R)' J        omega    u_I     J_p u_R ]
+        u_I   [  (J u_I)' -omega   J       -u_R     J_p u_I ]
+              [  .        e_k      .        .       .       ]
+              [  .        .        e_k      .       .       ]
+              [  last row                                   ]
+
+    All derivatives are complex steps.
+    """
+    n, k, N = unknowns.system.state.size, unknowns.component, z.size
+    out = np.zeros((N, N))
+    omega = z[3 * n]
+    for i in range(n):
+        for j in range(n):
+            out[i, j] = out[n + i, n + j] = out[2 * n + i, 2 * n + j] = J[i, j]
+        out[n + i, 2 * n + i] = omega
+        out[2 * n + i, n + i] = -omega
+        out[n + i, 3 * n] = z[2 * n + i]
+        out[2 * n + i, 3 * n] = -z[n + i]
+    out[3 * n, n + k] = out[3 * n + 1, 2 * n + k] = 1.0
+    for j in range(N):
+        if 3 * n + 2 < N:
+            out[N - 1, j] = last_row[j]
+    row = _row(unknowns, z) + 0.0j
+    states = np.empty((2, n), np.complex128)
+    for j in range(n):
+        states[0, j] = z[j] + 1j * STEP * z[n + j]
+        states[1, j] = z[j] + 1j * STEP * z[2 * n + j]
+    J_x = jacobian_matrices(unknowns.system, states, row)
+    state = z[:n].copy().reshape(1, n) + 0.0j
+    for i in range(n):
+        for j in range(n):
+            out[n + i, j] = J_x[0, i, j].imag / STEP
+            out[2 * n + i, j] = J_x[1, i, j].imag / STEP
+    for c in range(unknowns.free.size):
+        column, index = 3 * n + 1 + c, unknowns.free[c]
+        row[0, index] += 1j * STEP
+        f_p = right_hand_sides(unknowns.system, state, row)[0]
+        J_p = jacobian_matrices(unknowns.system, state, row)[0]
+        row[0, index] = row[0, index].real
+        for i in range(n):
+            out[i, column] = f_p[i].imag / STEP
+            for j in range(n):
+                slope = J_p[i, j].imag / STEP
+                out[n + i, column] += slope * z[n + j]
+                out[2 * n + i, column] += slope * z[2 * n + j]
+    return out
+
+
+@jit
+def solve(unknowns, z, tolerance, max_iterations):
+    """Newton's method for one free parameter: z and the residual before the last step."""
+    size = np.inf
+    for _ in range(max_iterations + 1):
+        G, J = residual(unknowns, z)
+        size = largest_magnitude(G)
+        if not np.isfinite(size):
+            break
+        lu = matrix(unknowns, z, J, z)
+        pivots = factor(lu)
+        substitute(lu, pivots, G)
+        if not np.isfinite(largest_magnitude(G)):  # singular
+            break
+        z = z - G  # also once more at the tolerance
+        if size <= tolerance:
+            break
+    return z, size
+
+
+@jit
+def correct(unknowns, predicted, tangent, tolerance, max_iterations, lu, pivots):
+    """Point in the hyperplane through the prediction, orthogonal to its tangent.
+
+    Steps with the matrix of the last point (`lu`, empty if there is none) come first, as long as
+    they converge fast; then, or from the prediction again, Newton's method.
+
+    Returns
+    -------
+    tuple
+        Residual before the last step (NaN without a solution), matrices factorised before the
+        last one, z, tangent, and its factors.
+    """
+    z = predicted
+    if lu.size > 0:
+        z, close = _chord(unknowns, predicted, tangent, tolerance, lu, pivots)
+        if not close:
+            z = predicted
+    for iteration in range(max_iterations + 1):
+        G, J = residual(unknowns, z)
+        size = largest_magnitude(G)
+        if not np.isfinite(size):
+            return np.nan, iteration, z, tangent, lu, pivots
+        lu = matrix(unknowns, z, J, tangent)
+        pivots = factor(lu)
+        step = np.zeros(z.size)
+        step[:-1] = -G
+        substitute(lu, pivots, step)
+        if not np.isfinite(largest_magnitude(step)):
+            return np.nan, iteration, z, tangent, lu, pivots
+        z = z + step
+        if size <= tolerance:
+            new = np.zeros(z.size)
+            new[-1] = 1.0
+            substitute(lu, pivots, new)
+            length = 0.0
+            for value in new:
+                length += value * value
+            return size, iteration, z, new / np.sqrt(length), lu, pivots
+    return np.nan, max_iterations, z, tangent, lu, pivots
+
+
+@jit
+def _chord(unknowns, z, tangent, tolerance, lu, pivots):
+    """Steps with an old matrix: z, and whether its residual is within the tolerance.
+
+    The last row of the old matrix is another one; the tangent t solves its other rows with zero,
+    so that x - t (t x) is the step orthogonal to t.
+    """
+    last = np.inf
+    for _ in range(_CHORD_STEPS):
+        G, _ = residual(unknowns, z)
+        size = largest_magnitude(G)
+        if size <= tolerance:
+            return z, True
+        if not size <= _CHORD_RATE * last:
+            return z, False
+        step = np.zeros(z.size)
+        step[:-1] = -G
+        substitute(lu, pivots, step)
+        along = 0.0
+        for i in range(z.size):
+            along += step[i] * tangent[i]
+        z = z + (step - along * tangent)
+        last = size
+    return z, False
+
+
+@jit
+def lyapunov_coefficients(system, states, vectors, omegas, parameters, component, radius):
+    """First Lyapunov coefficients of Hopf points, (count,).
+
+    Parameters: states (count, n), vectors (count, n) complex, omegas (count,), parameters
+    (count, q); see `tramdva.bifurcation.hopf.first_lyapunov_coefficients`.
+    """
+    count = states.shape[0]
+    out = np.empty(count)
+    for i in range(count):
+        row = parameters[i : i + 1].copy()
+        q = vectors[i] / np.abs(vectors[i]).max()
+        J = jacobian_matrices(system, states[i : i + 1].copy(), row)[0]
+        D, E = _jacobian_directions(system, states[i], row, q, radius)
+        l_1 = _normal_form(J, D, E, q, omegas[i]) / (2.0 * omegas[i])
+        out[i] = l_1 / (q[component].real ** 2 + q[component].imag ** 2)
+    return out
+
+
+@jit
+def _jacobian_directions(system, state, row, q, radius):
+    """First and second derivatives of J along Re q and Im q, (2, n, n) each, Cauchy's formula.
+
+    The trapezoidal rule with K points on the circle has the error of order radius^K and needs no
+    small difference; the lower half of the circle is the complex conjugate of the upper one.
+    """
+    n, K = state.size, 2 * (_ARC - 1)
+    states = np.empty((2 * _ARC, n), np.complex128)
+    turns = np.empty(_ARC, np.complex128)
+    for a in range(_ARC):
+        turns[a] = np.exp(2j * np.pi * a / K)
+        for j in range(n):
+            states[a, j] = state[j] + radius * turns[a] * q[j].real
+            states[_ARC + a, j] = state[j] + radius * turns[a] * q[j].imag
+    J = jacobian_matrices(system, states, row + 0.0j)
+    first, second = np.zeros((2, n, n)), np.zeros((2, n, n))
+    for a in range(_ARC):
+        weight = (1.0 if a in (0, _ARC - 1) else 2.0) / K
+        once = weight * np.conj(turns[a]) / radius
+        twice = 2.0 * weight * np.conj(turns[a]) ** 2 / radius**2
+        for d in range(2):
+            for i in range(n):
+                for j in range(n):
+                    value = J[d * _ARC + a, i, j]
+                    first[d, i, j] += (once * value).real
+                    second[d, i, j] += (twice * value).real
+    return first, second
+
+
+@jit
+def _applied(matrix, vector):
+    n = vector.size
+    out = np.zeros(n, np.complex128)
+    for i in range(n):
+        for j in range(n):
+            out[i] += matrix[i, j] * vector[j]
+    return out
+
+
+@jit
+def _normal_form(J, D, E, q, omega):
+    """Real part of Kuznetsov's bracket, eq. (5.39), for the eigenvector q of i omega."""
+    n = q.size
+    a, b = q.real + 0.0j, q.imag + 0.0j
+    squares = _applied(D[0], a), _applied(D[1], b)
+    shifted = -J + 0.0j
+    for i in range(n):
+        shifted[i, i] += 2j * omega
+    h_20 = squares[0] - squares[1] + 2j * _applied(D[0], b)
+    substitute(shifted, factor(shifted), h_20)
+    h_11 = squares[0] + squares[1]
+    inverse = J + 0.0j
+    substitute(inverse, factor(inverse), h_11)
+    both = E[0] + E[1]
+    total = _applied(both, a) + 1j * _applied(both, b)
+    total += -2.0 * (_applied(D[0], h_11) + 1j * _applied(D[1], h_11))
+    total += _applied(D[0], h_20) - 1j * _applied(D[1], h_20)
+    p = _adjoint_vector(J, q, omega)
+    value = 0.0
+    for i in range(n):
+        value += (np.conj(p[i]) * total[i]).real
+    return value
+
+
+@jit
+def _adjoint_vector(J, q, omega):
+    """Vector p with J^T p = -i omega p and <p, q> = conj(p) . q = 1, by a bordered matrix."""
+    n = q.size
+    bordered = np.zeros((n + 1, n + 1), np.complex128)
+    for i in range(n):
+        for j in range(n):
+            bordered[i, j] = J[j, i]
+        bordered[i, i] += 1j * omega
+        bordered[i, n] = q[i]
+        bordered[n, i] = np.conj(q[i])
+    p = np.zeros(n + 1, np.complex128)
+    p[n] = 1.0
+    substitute(bordered, factor(bordered), p)
+    product = 0.0j
+    for i in range(n):
+        product += np.conj(p[i]) * q[i]
+    return p[:n] / np.conj(product)
