@@ -103,6 +103,35 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     ----------
     line : BogieLine
     curvature_steps : tracks of growing curvature on the way
+
+    Examples
+    --------
+    The bogie of the paper in its curve, with coarse contacts and axles. Its wheels carry all of
+    its weight; the front axle heads outwards, the rear one inwards.
+
+    >>> import numpy as np
+    >>> from tramdva.bogie.curving import angle_of_attack, wheel_loads
+    >>> from tramdva.bogie.published import paper_bogie
+    >>> from tramdva.bogie.tram import run_through
+    >>> line = paper_bogie(shift_step=1e-4, yaw_nodes=10, grid=(6, 6), cutoff_frequency=300.0)
+    >>> run = run_through(line, curvature_steps=4)
+    >>> run.equilibrium.status
+    'converged'
+    >>> print(f"{sum(wheel_loads(run.equilibrium).values()) / 9.81 / 1e3:.1f} t")
+    15.8 t
+    >>> front, rear = np.degrees(angle_of_attack(run.curve, run.equilibrium))
+    >>> print(f"{front:.0f} and {rear:.0f} degrees")
+    2 and -2 degrees
+
+    Without absorbers it vibrates by itself: the second bending of its front axle grows.
+
+    >>> from tramdva.bogie.modes import modes
+    >>> found = modes(run.curve, run.equilibrium.state, limits=(50.0, 60.0))
+    >>> for name, frequency, damping in zip(found.name, found.frequency, found.damping_ratio):
+    ...     if "bending" in name:
+    ...         print(f"{name}: {frequency:.1f} Hz, grows: {damping < 0.0}")
+    second_bending_rear: 53.3 Hz, grows: False
+    second_bending_front: 58.5 Hz, grows: True
     """
     shares = np.linspace(0.0, 1.0, curvature_steps + 1)
     tracks = systems(line, None, shares)
