@@ -76,7 +76,7 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
     z = np.zeros(2 * basis.eigenvalue.size)
     z[np.argmin(np.abs(basis.eigenvalue.imag / (2 * np.pi) - critical.frequency))] = 1e-4
     count = round(5.0 / interval)
-    local = np.empty((count, 40))
+    local = np.empty((count, 44))
     results = np.empty((count, 4, len(known.curve.contacts.tables), 1))
     integration.run(
         basis.contact, known.curve.contacts,
@@ -86,7 +86,7 @@ def damping_of_scheme(known: Running, limits: tuple[float, float], interval: flo
         interval, 1e9, 0, 0.0, z, integration.workspace(known.curve.contacts), local, results,
         np.array([1]), 1,
     )  # fmt: skip
-    velocity = local[:, 15] + 0.3 * local[:, 17]
+    velocity = local[:, 16] + 0.3 * local[:, 18]
     window = round(40 / critical.frequency / interval)
     growth = np.log(np.std(velocity[-window:]) / np.std(velocity[:window]))
     return growth / ((count - window) * interval) - critical.growth_rate

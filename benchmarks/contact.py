@@ -82,7 +82,7 @@ def _contacts(times, table, law, height, rows, work, result):
     for i in range(times):
         total += patch.wheel_contact(
             table, law, -1.0, (-0.1e-3, height + 1e-13 * i), (0.0, -0.01), (4.0, 0.0, 0.0),
-            (0.13, 13.3, 0.0), 4.0, 0.0, 0.0, rows, work, result,
+            (0.13, 13.3, 0.0), 4.0, 0.0, 0.0, 0.04, rows, work, result,
         )[1]  # fmt: skip
     return total
 
@@ -121,7 +121,7 @@ def contacts():
         def excess(z, law=law, scratch=scratch):
             patch.wheel_contact(
                 table, law, -1.0, (-0.1e-3, z), (0.0, -0.01), (4.0, 0.0, 0.0), (0.13, 13.3, 0.0),
-                4.0, 0.0, 0.0, *scratch,
+                4.0, 0.0, 0.0, 0.04, *scratch,
             )  # fmt: skip
             return scratch[2][patch.NORMAL_FORCE] - 43e3
 

@@ -306,11 +306,56 @@ def draw_measured(path, kind, noise, picture):
     figure.savefig(picture)
 
 
+def picture_yawed_wheel(folder: Path) -> None:
+    """Wheel from above and along its axle's plane: axis, normal, and the two parts of the lead."""
+    yaw, delta, s, radius = 0.3, 0.75, -0.09, 0.3  # drawn much larger than in a curve
+    lead, centre = radius * np.tan(delta) * np.sin(yaw), -s * np.sin(yaw)
+    figure, axes = plt.subplots(1, 2, figsize=(7.2, 3.2))
+    above, behind = axes
+    along = np.array([-0.2, 0.12])
+    above.plot(along, -along * np.tan(yaw), color="black", lw=1.0)
+    above.text(0.05, -0.035, "axis", rotation=-np.degrees(yaw))
+    above.axvline(s, color=GREEN, lw=1.0, ls="--")
+    above.text(s + 0.004, -0.03, "rail", color=GREEN)
+    above.annotate("", (s, centre), (s, 0.0), arrowprops={"arrowstyle": "->", "color": BLUE})
+    above.annotate(
+        "", (s, centre + lead), (s, centre), arrowprops={"arrowstyle": "->", "color": RED}
+    )
+    above.plot([0.0, s, s], [0.0, centre, centre + lead], "o", ms=4, color="black")
+    above.text(0.005, 0.006, "wheel's centre")
+    above.text(s - 0.006, 0.3 * centre, r"$-s\,\sin\gamma$", color=BLUE, ha="right")
+    above.text(
+        s - 0.006, centre + 0.5 * lead, r"$r\,\tan\delta\,\sin\gamma$", color=RED, ha="right"
+    )
+    above.text(s + 0.006, centre + lead, "contact")
+    above.plot([0.0, s], [0.0, 0.0], color="black", lw=0.5, ls=":")
+    above.text(0.5 * s, -0.016, "$s$", ha="center")
+    above.set(xlabel="outwards", ylabel="along the rail", title="from above", aspect="equal")
+    behind.plot([-0.42, 0.12], [0.0, 0.0], color="black", lw=1.0)
+    behind.plot([s, s - radius * np.tan(delta)], [-radius, 0.0], color=GREEN, lw=1.0, ls="--")
+    behind.text(s - 0.12, -0.17, "normal", color=GREEN, ha="right")
+    behind.plot([s, s], [0.0, -radius], color=BLUE, lw=1.0)
+    behind.text(s + 0.006, -0.15, "$r$", color=BLUE)
+    tangent = np.array([-0.06, 0.06])
+    behind.plot(s + tangent, -radius - tangent * np.tan(-delta), color="black", lw=2.0)
+    behind.text(s + 0.02, -radius - 0.03, r"contact plane, $\delta$")
+    behind.plot([0.0, s], [0.0, -radius], "o", ms=4, color="black")
+    behind.text(0.005, 0.012, "wheel's centre")
+    behind.set(xlabel="outwards", ylabel="up", title="from behind", aspect="equal")
+    above.set(ylim=(-0.05, 0.14))
+    behind.set(ylim=(-0.38, 0.06))
+    for axis in axes:
+        axis.set(xticks=[], yticks=[])
+    figure.savefig(folder / "yawed_wheel.png")
+    plt.close(figure)
+
+
 def main(folder: Path) -> None:
     """Write all pictures into `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
     with plt.style.context(ROOT / "paper_figures" / "tramdva.mplstyle"):
         plt.rcParams["savefig.dpi"] = 180
+        picture_yawed_wheel(folder)
         picture_profiles(folder)
         picture_geometry(folder)
         picture_patch(folder)

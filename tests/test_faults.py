@@ -199,8 +199,11 @@ def test_words_of_the_configuration_are_never_commands(tmp_path: Path, snakemake
 
 
 def test_no_rule_runs_a_shell(root: Path) -> None:
-    text = (root / "Snakefile").read_text(encoding="utf-8")
+    rules = list(root.glob("workflow/rules/*.smk"))
+    texts = [
+        p.read_text(encoding="utf-8")
+        for p in (*rules, root / "Snakefile", root / "workflow/Snakefile")
+    ]
 
-    assert "script:" in text
-    assert "shell:" not in text
-    assert "    run:" not in text
+    assert sum("script:" in text for text in texts) == 3  # stages, jobs, figures
+    assert not [text for text in texts if "shell:" in text or "    run:" in text]

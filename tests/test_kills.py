@@ -47,6 +47,7 @@ numerics:
   bogie: {cells_along: 6, strips: 6}
   bogie_simulation: {samples: 128, revolutions: 1}
   wear: {wear_cells_along: 8, wear_strips: 8}
+  evolution_tendency: {orders: {first: 6, last: 60, step: 20}} # those of one job
 """
 # Another state of the same folder: whatever of it survives a kill must not stay in the results.
 OTHER = "numerics: {stability_map: {points: 51}, critical_hopf_curve: {check_points: 50}}\n"

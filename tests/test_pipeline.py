@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import snakefile_tables
 from browser import Watched, chromium
 
 from tramdva import results
@@ -14,23 +15,7 @@ from tramdva.configuration.reading import load_or_exit
 from tramdva.configuration.uses import used_values as values_of
 from tramdva.variables.registry import STAGES
 
-FIGURES = [
-    "fig02_stability_map",
-    "fig03_bifurcation_diagram",
-    "fig04_hopf_curves",
-    "fig05_critical_hopf_curve",
-    "fig06_cycle_amplitudes",
-    "fig07_frequency_response",
-    "fig08_bogie",
-    "fig09_curve_entry",
-    "bogie_mode_shapes",
-    "bogie_stability",
-    "campbell_chart",
-    "fig10_evolution_tendency",
-    "worn_wheels",
-    "order_speed_chart",
-    "tendency_design_chart",
-]
+DRAWN = [name for name, kinds in snakefile_tables.read().kinds.items() if "png" in kinds]
 # Files of the stages that have one per absorber, or per absorber and order.
 PER_JOB = {
     "bogie_linearisation": "{absorber}.nc",
@@ -83,7 +68,7 @@ def test_all_orders_ran_steadily(quick_run: Path) -> None:
     assert np.abs(np.degrees(np.angle(simulated / linear))).max() < 5.0
 
 
-@pytest.mark.parametrize("figure", FIGURES)
+@pytest.mark.parametrize("figure", DRAWN)
 def test_figures_are_drawn(quick_run: Path, figure: str) -> None:
     folder = quick_run / "paper_figures/paper"
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bifurcation.textbook import brusselator, normal_form
 from numba import carray
 from numpy.testing import assert_allclose, assert_array_equal
+from textbook import brusselator, normal_form
 
 from tramdva.bifurcation import compiled, hopf
 from tramdva.bifurcation.compiled import Evaluation
@@ -102,14 +102,15 @@ def test_an_error_in_a_plain_function_arrives():
     ).converged
 
 
-def test_an_orbit_without_linearisation_is_no_failure():
-    # a corrector that begins without a matrix ends where one with a matrix ends
+def test_the_corrector_ends_at_one_orbit_with_and_without_the_last_matrix():
     system = normal_form(lambda p: p[0], ("mu",))
     point = hopf.solve_hopf_point(system, np.zeros(2), np.array([0.01]), "mu")
     curve = LimitCycleCurve(system, "mu")
     steps = StepControl(0.05, 1e-6, 0.05, 3, comfortable_iterations=5)
     last = follow(curve, curve.start(point, 10, 4), steps, (-1.0, 1.0)).points[-1]
-    fresh = curve.correct(curve.predict(last, 0.05))[0]
-    again = curve.correct(curve.predict(curve.correct(curve.predict(last, 0.0))[0], 0.05))[0]
-    assert_allclose(fresh.nodal, again.nodal, atol=1e-9)
-    assert_array_equal(fresh.mesh, again.mesh)
+    assert last.linearisation is None
+    matrix = curve.correct(curve.predict(last, 0.0))[0].linearisation
+    newton = curve.correct(curve.predict(last, 0.05))[0]
+    chord = curve.correct(curve.predict(replace(last, linearisation=matrix), 0.05))[0]
+    assert_allclose(chord.nodal, newton.nodal, atol=1e-9)
+    assert_array_equal(chord.mesh, newton.mesh)

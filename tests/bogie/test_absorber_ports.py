@@ -8,7 +8,8 @@ from tramdva.bogie import absorber_ports
 from tramdva.bogie.absorber_ports import dynamic_stiffness, receptances
 from tramdva.bogie.conditions import Conditions, as_configured, reached, under
 from tramdva.bogie.curving import linearise, linearised
-from tramdva.bogie.rough_wheels import deviation_forces, rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
+from tramdva.bogie.rough_wheels import deviation_forces
 from tramdva.bogie.tram import changed, systems
 from tramdva.contact import fastsim
 from tramdva.evolution.tendency import Wearing, wear_rows, wear_sensitivity

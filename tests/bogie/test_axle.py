@@ -115,3 +115,20 @@ def test_a_point_between_nodes_moves_with_the_beam(bogie):
     i = 3
     at_node = flexible.motion(flexible.beam.position[i], flexible.beam_height)
     np.testing.assert_allclose(at_node, flexible.shape[6 * i : 6 * i + 6], atol=1e-12)
+
+
+def test_nodes_stand_where_the_beam_carries_springs_and_absorbers(bogie):
+    """A pitching moment between nodes would miss compliance, up to length / (4 GJ)."""
+    values = bogie.model_dump()
+    values["primary"]["lateral_position"], values["absorber"]["lateral_position"] = 0.5, 0.41
+    moved = type(bogie).model_validate(values)
+    coarse, fine = (axle.flexible_axle(moved, 1e9, elements) for elements in (4, 16))
+    for y in (0.5, 0.41):
+        assert np.abs(np.abs(coarse.beam.position) - y).min() < 1e-12
+    twists = []
+    for flexible in (coarse, fine):
+        ends = [flexible.motion(side * 0.5, flexible.beam_height)[axle.PITCH] for side in (1, -1)]
+        twist = (ends[0] - ends[1])[6:]
+        twists.append(twist @ np.linalg.solve(flexible.stiffness[6:, 6:], twist))
+    # Opposite unit moments 1 m apart twist a shaft by 1 / GJ, exactly on any mesh with these nodes.
+    np.testing.assert_allclose(twists, 1.0 / bogie.axle.torsional_stiffness, rtol=1e-7)

@@ -61,7 +61,7 @@ def energy_after_blow(conservative, direction, speed: float, interval: float):
     z, work = modal_state(basis, start), integration.workspace(contacts)
     tables = integration.step_table(basis.eigenvalue, interval)
     columns = np.array(integration.RECORDED)
-    local, results = np.empty((1, 40)), np.empty((1, 4, len(contacts.tables), columns.size))
+    local, results = np.empty((1, 44)), np.empty((1, 4, len(contacts.tables), columns.size))
     found = [energies(system, start)]
     for _ in range(round(DURATION / interval)):
         integration.run(

@@ -11,7 +11,7 @@ from tramdva.bogie.track import TrackLine
 from tramdva.bogie.tram import absorber, changed, track_line
 
 FREE = 1e9  # tolerance that leaves the step alone
-INNER_FRONT = 10  # first local variable of the wheel
+INNER_FRONT = 11  # first local variable of the wheel
 
 
 class Run:
@@ -33,7 +33,7 @@ class Run:
     def __call__(self, z, duration, interval, excitation=None, tolerance=FREE):
         """Local variables (k, 40) and status; z is advanced."""
         count = round(duration / interval)
-        local = np.empty((count, 40))
+        local = np.empty((count, 44))
         zones = len(self.system.contacts.tables)
         results = np.empty((count, 4, zones, len(integration.RECORDED)))
         _, status, _, _ = integration.run(
@@ -169,8 +169,8 @@ def test_ride_with_absorbers_ends_in_the_curving_equilibrium(line, running, tran
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     found = ride.ride(route(line, damped, transition), 5.0, 1e-3, 1, 1e-2)
     assert found.status == "completed"
-    end = damped.curve.local(damped.equilibrium.state).reshape(4, 10)
-    last = found.local[-1].reshape(4, 10)
+    end = damped.curve.local(damped.equilibrium.state).reshape(4, 11)
+    last = found.local[-1].reshape(4, 11)
     np.testing.assert_allclose(last[:, :2], end[:, :2], atol=2e-5)  # m; car body decays slowly
     assert np.abs(ride.contact_point_velocity(0.3, found.local[-50:])).max() < 1e-3
 
@@ -192,7 +192,7 @@ def test_radius_deviation_moves_the_wheel_up(line, running):
     """A crest of 10 um at a very low frequency lifts the rim by 10 um."""
     damped = changed(line, absorber(line, 1.74e5, 300.0), running)
     run = Run(damped)
-    crest = np.zeros((4, 2))
+    crest = np.zeros((4, len(damped.curve.contacts.tables)))
     crest[1] = 1e-5
     excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(amplitude=crest)
     z = np.zeros(2 * run.basis.eigenvalue.size)

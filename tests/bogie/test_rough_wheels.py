@@ -9,11 +9,11 @@ from tramdva.bogie import wheel_forces as running_module
 from tramdva.bogie.absorber_ports import port_modes, ports, receptances
 from tramdva.bogie.curving import linearise
 from tramdva.bogie.names import WHEELS
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.rough_wheels import (
     contact_angles,
     deviation_forces,
     local_response,
-    rough_bogie,
     wheel_mask,
 )
 from tramdva.bogie.stored import stored_bogie, variables
@@ -211,8 +211,12 @@ def test_sensitivities_do_not_depend_on_the_steps(rough, quiet):
 
 def test_file_holds_the_whole_linearised_bogie(stored, rough, quiet):
     back = stored_bogie(stored["paper"])
-    response = local_response(back.bogie, np.array([300.0]), np.ones((1, 4, 2)))
-    expected = local_response(rough["paper"], np.array([300.0]), np.ones((1, 4, 2)))
+    response = local_response(
+        back.bogie, np.array([300.0]), np.ones((1, 4, len(rough["paper"].results[0])))
+    )
+    expected = local_response(
+        rough["paper"], np.array([300.0]), np.ones((1, 4, len(rough["paper"].results[0])))
+    )
     np.testing.assert_array_equal(response, expected)
     assert back.places.spin_rate == pytest.approx(V / R0)
     assert back.law.friction == quiet["paper"].curve.contacts.law.friction

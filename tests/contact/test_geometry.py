@@ -109,7 +109,7 @@ def test_work_of_the_normal_force_on_closed_loops(tram_tables):
         height = centre[1] + radius * np.sin(angle)
         force = []
         for u, z in zip(shift, height, strict=True):
-            p, delta, _, depth, _, _, lateral, _ = at(tram_tables[1], u, z)
+            p, delta, _, depth, _, _, lateral, *_ = at(tram_tables[1], u, z)
             normal = hertz.hertz_ellipse(table, np.cos(delta) / (0.3 + depth), lateral, 1.1e11, p)
             force.append([-normal[0] * np.sin(delta), -normal[0] * np.cos(delta)])
         middle = 0.5 * (np.array(force)[1:] + np.array(force)[:-1])

@@ -20,7 +20,7 @@ def contact(
 ):  # fmt: skip
     """Force (3,), moment (3,) and the results of one call."""
     numbers = patch.wheel_contact(
-        table, law, side, position, angles, velocity, rotation, SPEED, deviation, 0.0, *SCRATCH
+        table, law, side, position, angles, velocity, rotation, SPEED, deviation, 0.0, 0.0, *SCRATCH
     )
     return np.array(numbers[:3]), np.array(numbers[3:]), SCRATCH[2].copy()
 
@@ -56,11 +56,14 @@ def test_wheel_steered_outwards_is_pushed_inwards_and_touches_ahead(tram_tables)
     _, _, found = contact(tram_tables[1], position=position, **motion)
     delta = found[patch.CONTACT_ANGLE]
     assert 0.4 < delta < 1.2
-    lead = found[patch.ROLLING_RADIUS] * np.tan(delta) * np.tan(0.04)
-    assert_allclose(found[patch.FORWARD_SHIFT], lead, rtol=1e-9)
-    # The rolling wheel heads right but moves along the rail: slip to the left, -V psi / cos(delta),
-    # and a creep force to the right, towards the flange.
-    assert_allclose(found[patch.LATERAL_CREEPAGE], np.sin(0.04) / np.cos(delta), rtol=0.04)
+    assert found[patch.FORWARD_SHIFT] > 0.0
+    # The rolling wheel heads right but moves along the rail: slip to the left and a creep force to
+    # the right, towards the flange. Seen from above the lowest material moves with the spin times
+    # the height of the axis; without a part along the normal that is a slip of 1 / cos(delta).
+    place = (tram_tables[1], -1.0, position, motion["angles"], 0.0, 0.0)
+    drop = -patch.contact_point(*place, SCRATCH[0])[3]
+    sideways = np.sin(0.04) * drop / RADIUS
+    assert_allclose(found[patch.LATERAL_CREEPAGE] * np.cos(delta), sideways, rtol=1e-9)
     assert found[patch.LATERAL_FORCE] < 0.0
     assert_allclose(found[patch.SPIN_CREEPAGE], np.sin(delta) / RADIUS, rtol=0.02)
 
@@ -106,8 +109,8 @@ def test_power_on_the_wheel_is_normal_power_and_friction_loss(tram_tables, later
     total = force @ velocity + moment @ rotation
     arm_x = found[patch.FORWARD_SHIFT]
     rail_y = -found[patch.RAIL_POSITION]
-    _, _, arm_y, arm_z = patch.contact_point(
-        tram_tables[1], -1.0, tuple(position), (0.001, yaw), 0.0, SCRATCH[0]
+    _, _, arm_y, arm_z, *_ = patch.contact_point(
+        tram_tables[1], -1.0, tuple(position), (0.001, yaw), 0.0, 0.0, SCRATCH[0]
     )
     assert_allclose(arm_y, rail_y - position[0], atol=1e-12)
     at_contact = velocity + np.cross(rotation, [arm_x, arm_y, arm_z])

@@ -7,7 +7,7 @@ import pytest
 
 from tramdva.bogie.absorber_ports import PortModes
 from tramdva.bogie.conditions import Conditions
-from tramdva.bogie.rough_wheels import rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.tram import run_through
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values

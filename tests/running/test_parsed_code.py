@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tramdva import parsed_code
+from tramdva.running import parsed_code
 from tramdva.running.code_hash import code_hash
 from tramdva.running.parsed_code import parsed, written_tree
 
@@ -161,7 +161,7 @@ def test_edit_that_dates_do_not_tell_counts(tmp_path: Path) -> None:
     before = parsed(path)
     edit_unseen(path, "x = 1", "x = 2")
 
-    assert parsed(path).rest != before.rest
+    assert parsed(path).digest != before.digest
 
 
 @pytest.fixture
@@ -211,7 +211,7 @@ def test_next_process_sees_what_dates_do_not_tell(
     edit_unseen(file, "return 11", "return 12")
     another_process()
 
-    assert parsed(file).rest != first.rest
+    assert parsed(file).digest != first.digest
 
 
 @pytest.mark.parametrize("damaged", [b"", b"{", b"[]", b'{"a": 1}', b'{"a": []}', b"\xff\x00"])
@@ -288,10 +288,10 @@ def test_folder_that_cannot_be_written_is_passed_over(
 
 
 def test_store_is_of_this_version_of_the_parser(another_process, monkeypatch) -> None:
-    before = parsed_code._key(False, b"")
+    before = parsed_code._key(b"")
     monkeypatch.setattr(parsed_code.sys, "version_info", (3, 99, 0))
     parsed_code._parser.cache_clear()
-    after = parsed_code._key(False, b"")
+    after = parsed_code._key(b"")
     parsed_code._parser.cache_clear()
 
     assert before != after

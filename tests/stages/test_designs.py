@@ -10,7 +10,7 @@ import pytest
 
 from tramdva.bogie import tram
 from tramdva.bogie.curving import linearise
-from tramdva.bogie.rough_wheels import rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
 from tramdva.evolution.tendency import (

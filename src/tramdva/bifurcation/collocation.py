@@ -23,6 +23,7 @@ from tramdva.bifurcation.elimination import (
     factor,
     factor_columns,
     forward_columns,
+    inner_jit,
     jit,
     substitute,
 )
@@ -277,7 +278,7 @@ def solve(factors, residual, border):
     return nodal, closing[n], closing[n + 1]
 
 
-@jit
+@inner_jit
 def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, phase, arc):
     """Assemble and condense each interval; columns: inside, left, right, T, p; two border rows."""
     N, m, n = f.shape
@@ -305,14 +306,14 @@ def _eliminate_intervals(values, derivatives, weights, h, period, J, f, f_p, pha
     return lu, pivots
 
 
-@jit
+@inner_jit
 def _copy_block(target, row, column, source, source_row, source_column, rows, columns):
     for i in range(rows):
         for j in range(columns):
             target[row + i, column + j] = source[source_row + i, source_column + j]
 
 
-@jit
+@inner_jit
 def _eliminate_chain(lu, n):
     """Eliminate the mesh points between the ends; columns: middle, first, next, T, p.
 
@@ -340,7 +341,7 @@ def _eliminate_chain(lu, n):
     return chain, pivots, running
 
 
-@jit
+@inner_jit
 def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
     """Forward elimination of the right-hand side through intervals, chain and closure."""
     N, height, _ = lu.shape
@@ -371,7 +372,7 @@ def _forward(lu, pivots, chain_lu, chain_pivots, residual, border):
     return rhs, chain, running
 
 
-@jit
+@inner_jit
 def _backward(lu, chain_lu, rhs, chain, closing, m):
     """Back substitution: mesh points from right to left, then the nodes inside the intervals.
 
@@ -382,29 +383,30 @@ def _backward(lu, chain_lu, rhs, chain, closing, m):
     n = closing.shape[0] - 2
     inside = n * (m - 1)
     nodal = np.empty((N * m + 1, n))
-    known = np.empty(3 * n + 2)
+    known = np.empty(2 * n + 2)
     x = np.empty(max(inside, n))
-    nodal[0] = closing[:n]
-    nodal[N * m] = closing[:n]
-    known[:n] = closing[:n]
-    known[2 * n : 2 * n + 2] = closing[n:]
+    for s in range(n):
+        nodal[0, s] = nodal[N * m, s] = known[s] = closing[s]
+    known[2 * n], known[2 * n + 1] = closing[n], closing[n + 1]
     for j in range(N - 1, 0, -1):
-        known[n : 2 * n] = nodal[(j + 1) * m]
-        _upper(chain_lu[j - 1, :n], chain[j - 1], known[: 2 * n + 2], x)
-        nodal[j * m] = x[:n]
+        for s in range(n):
+            known[n + s] = nodal[(j + 1) * m, s]
+        _upper(chain_lu[j - 1], n, chain[j - 1], known, x)
+        for s in range(n):
+            nodal[j * m, s] = x[s]
     for j in range(N):
-        known[:n] = nodal[j * m]
-        known[n : 2 * n] = nodal[(j + 1) * m]
-        _upper(lu[j, :inside], rhs[j], known[: 2 * n + 2], x)
-        for i in range(1, m):
-            nodal[j * m + i] = x[(i - 1) * n : i * n]
+        for s in range(n):
+            known[s], known[n + s] = nodal[j * m, s], nodal[(j + 1) * m, s]
+        _upper(lu[j], inside, rhs[j], known, x)
+        for i in range(inside):
+            nodal[j * m + 1 + i // n, i % n] = x[i]
     return nodal
 
 
-@jit
-def _upper(a, b, known, x):
-    """Unknowns x of the upper triangle left in `a` (k, k + l), those of its last columns known."""
-    height = np.uint64(a.shape[0])
+@inner_jit
+def _upper(a, unknowns, b, known, x):
+    """Solve the upper triangle left in the first rows of `a`, its last columns' unknowns given."""
+    height = np.uint64(unknowns)
     one, zero = np.uint64(1), np.uint64(0)
     for i in range(height):
         value = b[i]

@@ -22,7 +22,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic, overload
 
-from tramdva.bifurcation.elimination import jit
+from tramdva.bifurcation.elimination import inner_jit, jit
 from tramdva.bifurcation.system import DynamicalSystem, Kernels
 
 STEP = 1e-30  # of complex steps, whose derivatives are exact to rounding
@@ -205,7 +205,7 @@ def jacobian_matrices(system, states, parameters):
     return out
 
 
-@jit
+@inner_jit
 def _physical_states(system, states):
     out = np.empty_like(states)
     for i in range(states.shape[0]):
@@ -214,7 +214,7 @@ def _physical_states(system, states):
     return out
 
 
-@jit
+@inner_jit
 def _physical_parameters(system, parameters):
     out = np.empty_like(parameters)
     for i in range(parameters.shape[0]):

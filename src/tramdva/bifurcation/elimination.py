@@ -3,14 +3,25 @@
 import numba
 import numpy as np
 
-jit = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+jit = numba.njit(
+    cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, no_cfunc_wrapper=True
+)
+# For what Python itself does not call: half of the compile time would go into the way from there.
+inner_jit = numba.njit(
+    cache=True,
+    nogil=True,
+    error_model="numpy",
+    fastmath={"contract"},
+    no_cfunc_wrapper=True,
+    no_cpython_wrapper=True,
+)
 
 
 # Indices without sign: Numba then adds no test for negative ones, and the loops become vectors.
 _ONE = np.uint64(1)
 
 
-@jit
+@inner_jit
 def factor_columns(a, pivots, columns, rows):
     """Gaussian elimination of the first columns; pivots among the first rows.
 
@@ -36,7 +47,7 @@ def factor_columns(a, pivots, columns, rows):
                     a[i, j] -= multiplier * a[k, j]
 
 
-@jit
+@inner_jit
 def forward_columns(a, pivots, columns, b):
     """Apply the elimination of `factor_columns` to a right-hand side."""
     for k in range(np.uint64(columns)):
@@ -49,7 +60,7 @@ def forward_columns(a, pivots, columns, b):
                 b[i] -= a[i, k] * value
 
 
-@jit
+@inner_jit
 def factor(a):
     """LU factors of a square matrix in its place, and the pivots; singular ones give inf or NaN."""
     pivots = np.empty(a.shape[0], np.int64)
@@ -57,7 +68,7 @@ def factor(a):
     return pivots
 
 
-@jit
+@inner_jit
 def substitute(lu, pivots, b):
     """Solution of the factorised system in the place of its right-hand side."""
     n = lu.shape[0]
@@ -69,7 +80,7 @@ def substitute(lu, pivots, b):
         b[k] = value / lu[k, k]
 
 
-@jit
+@inner_jit
 def largest_magnitude(values):
     """Largest magnitude of a flat array; NaN where one is not finite."""
     size = 0.0

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bifurcation.compiled import STEP, Evaluator, jacobian_matrices, right_hand_sides
-from tramdva.bifurcation.elimination import factor, jit, largest_magnitude, substitute
+from tramdva.bifurcation.elimination import factor, inner_jit, jit, largest_magnitude, substitute
 
 # A step with an old matrix must shrink the residual by this factor, else Newton begins anew.
 _CHORD_RATE = 0.2
@@ -44,7 +44,7 @@ class Unknowns(NamedTuple):
     component: int
 
 
-@jit
+@inner_jit
 def _row(unknowns, z):
     """Parameters at z, (1, q)."""
     row = unknowns.parameters.copy().reshape(1, -1)
@@ -54,7 +54,7 @@ def _row(unknowns, z):
     return row
 
 
-@jit
+@inner_jit
 def residual(unknowns, z):
     """Residual (3 n + 2,), and J (n, n) for the matrix."""
     n, k = unknowns.system.state.size, unknowns.component
@@ -74,7 +74,7 @@ def residual(unknowns, z):
     return G, J
 
 
-@jit
+@inner_jit
 def matrix(unknowns, z, J, last_row):
     """Derivative of the residual in z, and below it a last row where one is free, (N, N).
 
@@ -192,7 +192,7 @@ def correct(unknowns, predicted, tangent, tolerance, max_iterations, lu, pivots)
     return np.nan, max_iterations, z, tangent, lu, pivots
 
 
-@jit
+@inner_jit
 def _chord(unknowns, z, tangent, tolerance, lu, pivots):
     """Steps with an old matrix: z, and whether its residual is within the tolerance.
 
@@ -237,7 +237,7 @@ def lyapunov_coefficients(system, states, vectors, omegas, parameters, component
     return out
 
 
-@jit
+@inner_jit
 def _jacobian_directions(system, state, row, q, radius):
     """First and second derivatives of J along Re q and Im q, (2, n, n) each, Cauchy's formula.
 
@@ -267,7 +267,7 @@ def _jacobian_directions(system, state, row, q, radius):
     return first, second
 
 
-@jit
+@inner_jit
 def _applied(matrix, vector):
     n = vector.size
     out = np.zeros(n, np.complex128)
@@ -277,7 +277,7 @@ def _applied(matrix, vector):
     return out
 
 
-@jit
+@inner_jit
 def _normal_form(J, D, E, q, omega):
     """Real part of Kuznetsov's bracket, eq. (5.39), for the eigenvector q of i omega."""
     n = q.size
@@ -302,7 +302,7 @@ def _normal_form(J, D, E, q, omega):
     return value
 
 
-@jit
+@inner_jit
 def _adjoint_vector(J, q, omega):
     """Vector p with J^T p = -i omega p and <p, q> = conj(p) . q = 1, by a bordered matrix."""
     n = q.size

@@ -9,7 +9,7 @@ import numpy as np
 
 from tramdva.bifurcation.collocation import Basis, BorderedFactors, factorise, solve
 from tramdva.bifurcation.compiled import STEP, Evaluator, jacobian_matrices, right_hand_sides
-from tramdva.bifurcation.elimination import jit, largest_magnitude
+from tramdva.bifurcation.elimination import inner_jit, jit, largest_magnitude
 
 # A chord step must shrink the residual by this factor, else the matrix is factorised anew.
 _CHORD_RATE = 0.2
@@ -100,30 +100,33 @@ def correct(equations, orbit, tangent, linearisation, fixed_parameter):
     row = Direction(np.zeros_like(orbit.nodal), 0.0, 1.0)
     if not fixed_parameter:
         row = _dual(equations, orbit, tangent)
-    last, last_change = np.inf, np.inf
-    for iteration in range(1, equations.max_iterations + 1):
+    last, last_change, iteration, solved = np.inf, np.inf, 0, False
+    while iteration < equations.max_iterations or solved:
         f, residual = _residual(equations, orbit)
-        size = largest_magnitude(residual.ravel())
-        if not np.isfinite(size):
-            return False, iteration, orbit, size, linearisation, tangent
-        if linearisation.column.nodal.size == 0 or size > _CHORD_RATE * last:
+        size = _largest(residual)
+        # one place for each of the large functions: each place is compiled
+        if solved or linearisation.column.nodal.size == 0 or size > _CHORD_RATE * last:
             linearisation = _linearise(equations, orbit, f, tangent)
-        if not np.isfinite(largest_magnitude(linearisation.column.nodal.ravel())):
-            return False, iteration, orbit, size, linearisation, tangent
+        finite = np.isfinite(size) and np.isfinite(_largest(linearisation.column.nodal))
+        if solved or not finite:
+            if finite:
+                tangent = _unit(equations, orbit, linearisation.column, tangent)
+            found = solved and finite and orbit.period > 0.0
+            return found, max(iteration, 1), orbit, size, linearisation, tangent
         step = _step(linearisation, residual, row)
         orbit = _moved(orbit, step, equations.index)
-        change = max(largest_magnitude(step.nodal.ravel()), abs(step.period) / orbit.period)
+        iteration += 1
+        change = max(_largest(step.nodal), abs(step.period) / orbit.period)
         # The next change would be smaller by the rate seen so far.
         rate = change / last_change if np.isfinite(last_change) else 1.0
-        if change * min(rate, 1.0) <= equations.tolerance:
-            f, residual = _residual(equations, orbit)
-            size = largest_magnitude(residual.ravel())
-            linearisation = _linearise(equations, orbit, f, tangent)
-            finite = np.isfinite(largest_magnitude(linearisation.column.nodal.ravel()))
-            new = _unit(equations, orbit, linearisation.column, tangent)
-            return finite and orbit.period > 0.0, iteration, orbit, size, linearisation, new
+        solved = change * min(rate, 1.0) <= equations.tolerance
         last, last_change = size, change
     return False, equations.max_iterations, orbit, np.nan, linearisation, tangent
+
+
+@inner_jit
+def _largest(values):
+    return largest_magnitude(values.ravel())
 
 
 @jit
@@ -146,7 +149,7 @@ def product(mass, h, period, weight, a, b):
     return total + weight * a.parameter * b.parameter
 
 
-@jit
+@inner_jit
 def _dual(equations, orbit, direction):
     """Weights whose plain dot product with another direction is the inner product."""
     m, mass = equations.base.degree, equations.base.mass
@@ -163,7 +166,7 @@ def _dual(equations, orbit, direction):
     )
 
 
-@jit
+@inner_jit
 def _dot(a, b):
     """Plain dot product of all numbers of two directions."""
     total = a.period * b.period + a.parameter * b.parameter
@@ -173,7 +176,7 @@ def _dot(a, b):
     return total
 
 
-@jit
+@inner_jit
 def _unit(equations, orbit, direction, towards):
     """Direction of length 1 with a positive product with another one."""
     mass, weight = equations.base.mass, equations.weight
@@ -185,29 +188,30 @@ def _unit(equations, orbit, direction, towards):
     )
 
 
-@jit
+@inner_jit
 def _step(linearisation, residual, row):
-    """Newton step x with v x = 0 for the wanted last row v.
+    """Newton step -x with v x = 0 for the wanted last row v.
 
     The matrix may have another last row: with t = `column` all other rows give zero, so that
     x - t (v x) / (v t) solves the system with the row v.
     """
-    nodal, period, parameter = solve(linearisation.factors, -residual, (0.0, 0.0))
+    nodal, period, parameter = solve(linearisation.factors, residual, (0.0, 0.0))
     t = linearisation.column
     share = _dot(row, Direction(nodal, period, parameter)) / _dot(row, t)
-    return Direction(
-        nodal - share * t.nodal, period - share * t.period, parameter - share * t.parameter
-    )
+    for i in range(nodal.shape[0]):
+        for s in range(nodal.shape[1]):
+            nodal[i, s] = share * t.nodal[i, s] - nodal[i, s]
+    return Direction(nodal, share * t.period - period, share * t.parameter - parameter)
 
 
-@jit
+@inner_jit
 def _moved(orbit, step, index):
     parameters = orbit.parameters.copy()
     parameters[0, index] += step.parameter
     return Orbit(orbit.h, orbit.nodal + step.nodal, orbit.period + step.period, parameters)
 
 
-@jit
+@inner_jit
 def _at_gauss_points(nodal, matrix, intervals):
     """Values (N m, n) of polynomials by the matrix (m, m + 1) of their basis."""
     m, n = matrix.shape[0], nodal.shape[1]
@@ -222,26 +226,31 @@ def _at_gauss_points(nodal, matrix, intervals):
     return out
 
 
-@jit
+@inner_jit
 def _slopes(equations, orbit):
     """Derivatives in tau at the Gauss points, (N, m, n)."""
     N, m, n = orbit.h.size, equations.base.degree, orbit.nodal.shape[1]
-    slope = _at_gauss_points(orbit.nodal, equations.base.derivatives, N).reshape(N, m, n)
-    for j in range(N):
-        slope[j] /= orbit.h[j]
-    return slope
+    slope = _at_gauss_points(orbit.nodal, equations.base.derivatives, N)
+    for j in range(N * m):
+        for s in range(n):
+            slope[j, s] /= orbit.h[j // m]
+    return slope.reshape(N, m, n)
 
 
-@jit
+@inner_jit
 def _residual(equations, orbit):
     """f and u' - T f at the Gauss points, (N, m, n)."""
     residual = _slopes(equations, orbit)
     u = _at_gauss_points(orbit.nodal, equations.base.values, orbit.h.size)
     f = right_hand_sides(equations.system, u, orbit.parameters).reshape(residual.shape)
-    return f, residual - orbit.period * f
+    for j in range(residual.shape[0]):
+        for c in range(residual.shape[1]):
+            for s in range(residual.shape[2]):
+                residual[j, c, s] -= orbit.period * f[j, c, s]
+    return f, residual
 
 
-@jit
+@inner_jit
 def _linearise(equations, orbit, f, tangent):
     """Matrix with the tangent as its last row, factorised."""
     base, N = equations.base, orbit.h.size

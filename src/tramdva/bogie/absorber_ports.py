@@ -31,9 +31,9 @@ class Receptances(NamedTuple):
     """Complex responses of the bogie without absorbers at f frequencies.
 
     angular_frequency : (f,) rad/s
-    local_by_wave : (f, 40), local variables of the contacts by radius deviations
+    local_by_wave : (f, 44), local variables of the contacts by radius deviations
     place_by_wave : (f, p), motion of the places of the absorbers by the same
-    local_by_force : (f, 40, p); place_by_force : (f, p, p), by forces at these places
+    local_by_force : (f, 44, p); place_by_force : (f, p, p), by forces at these places
 
     The first four places are the absorbers'; others carry an absorber's mass only.
     """
@@ -116,7 +116,7 @@ def ports(bare: Receptances, inertia: float, output: np.ndarray, direct: np.ndar
     ----------
     bare : Receptances
     inertia : kg m^2, or kg of absorbers that translate
-    output : (f, k, 40), quantities per local variables; direct : (f, k), their part by the wave
+    output : (f, k, 44), quantities per local variables; direct : (f, k), their part by the wave
 
     Notes
     -----

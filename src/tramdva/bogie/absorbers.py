@@ -19,7 +19,7 @@ class AbsorberFamily(NamedTuple):
     At rest an absorber transmits its weight, whatever its stiffness and damping: rims, contacts
     and their Jacobian are the same for all. A rotating one transmits nothing.
 
-    system : with the absorbers `design`; contact_jacobian : (24, 40)
+    system : with the absorbers `design`; contact_jacobian : (24, 44)
     """
 
     system: System

@@ -11,6 +11,8 @@ J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 an
 
 from __future__ import annotations
 
+from collections.abc import Set
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -127,26 +129,44 @@ def assemble_beam(position: np.ndarray, elements: list[BeamElement]) -> Beam:
     return Beam(position, stiffness, mass)
 
 
-def stepped_beam(axle: AxleBridge, elements_per_section: int) -> Beam:
-    """Beam of an axle bridge from left to right: outer, middle, outer section; m, kg, N m^2."""
+def carrying_places(bogie: BareBogie) -> set[float]:
+    """Distances (m) from the track centre at which the beam carries springs or absorbers."""
+    places = {bogie.primary.lateral_position}
+    absorber = getattr(bogie, "absorber", None)  # a bogie may be configured without
+    if absorber is not None:
+        places.add(absorber.lateral_position)
+    return places
+
+
+def stepped_beam(
+    axle: AxleBridge, elements_per_section: int, places: Set[float] = frozenset()
+) -> Beam:
+    """Beam of an axle bridge: outer, middle, outer section; m, kg, N m^2.
+
+    Nodes stand at the ends of sections and at `places` (m from the track centre): a force or
+    moment between nodes leaves an error of first order in the length of an element.
+    """
     ends = (-axle.half_length, -axle.middle_half_length, axle.middle_half_length, axle.half_length)
     nodes, elements = [ends[0]], []
     for left, right, section in zip(
         ends[:-1], ends[1:], (axle.outer, axle.middle, axle.outer), strict=True
     ):
-        grid = np.linspace(left, right, elements_per_section + 1)
-        nodes += list(grid[1:])
-        elements += elements_per_section * [
-            BeamElement(
-                grid[1] - grid[0],
-                section.vertical_bending_stiffness,
-                axle.lateral_bending_stiffness,
-                axle.torsional_stiffness,
-                axle.axial_stiffness,
-                section.mass_per_length,
-                axle.polar_inertia_per_length,
-            )
-        ]
+        inside = {side * y for y in places for side in (-1.0, 1.0) if left < side * y < right}
+        for start, end in pairwise(sorted({left, right} | inside)):
+            count = max(1, round(elements_per_section * (end - start) / (right - left)))
+            grid = np.linspace(start, end, count + 1)
+            nodes += list(grid[1:])
+            elements += count * [
+                BeamElement(
+                    grid[1] - grid[0],
+                    section.vertical_bending_stiffness,
+                    axle.lateral_bending_stiffness,
+                    axle.torsional_stiffness,
+                    axle.axial_stiffness,
+                    section.mass_per_length,
+                    axle.polar_inertia_per_length,
+                )
+            ]
     return assemble_beam(np.array(nodes), elements)
 
 
@@ -235,7 +255,7 @@ def flexible_axle(
     wheel axis does not move with the axle: the hub turns on its bearing.
     """
     axle, stub, wheel = bogie.axle, bogie.stub, bogie.wheel
-    beam = stepped_beam(axle, elements_per_section)
+    beam = stepped_beam(axle, elements_per_section, carrying_places(bogie))
     height = wheel.radius - axle.drop
     mass = beam.mass.copy()
     hub = (wheel.hub.diametral_inertia, 0.0, wheel.hub.diametral_inertia)

@@ -4,6 +4,7 @@ The state is x = (q without the angles of the hubs, v): those angles are cyclic,
 constant rate in equilibrium.
 """
 
+import itertools
 import logging
 from typing import NamedTuple
 
@@ -20,7 +21,7 @@ logger = logging.getLogger(__name__)
 HUBS = 4
 STATUS = ("converged", "not_converged", "wheel_lifted", "outside_profile")
 # Per step of the continuation, in the units of `vehicle.LOCAL`.
-_LARGEST_CHANGE = np.tile([2e-4, 5e-5, 4e-3, 4e-3, 0.02, 0.05, 0.05, 0.2, 0.2, 0.2], 4)
+_LARGEST_CHANGE = np.tile([2e-4, 5e-5, 4e-3, 4e-3, 0.02, 0.05, 0.05, 0.2, 0.2, 0.2, 4e-3], 4)
 
 
 class System(NamedTuple):
@@ -46,7 +47,7 @@ class System(NamedTuple):
         return self.size + len(self.vehicle.names)
 
     def local(self, state: np.ndarray) -> np.ndarray:
-        """Local variables (40,) of the contacts."""
+        """Local variables (44,) of the contacts."""
         k, vehicle = self.size, self.vehicle
         return vehicle.local_position[:, :k] @ state[:k] + vehicle.local_velocity @ state[k:]
 
@@ -78,8 +79,8 @@ def system_on(
 class Linearisation(NamedTuple):
     """State matrix A of x' = A (x - x_0) and its parts.
 
-    matrix : (2 n - 4, 2 n - 4); contact_jacobian : (24, 40)
-    output : (40, 2 n - 4), local variables of the contacts from the state
+    matrix : (2 n - 4, 2 n - 4); contact_jacobian : (24, 44)
+    output : (44, 2 n - 4), local variables of the contacts from the state
     input : (2 n - 4, n), state derivative from generalised forces
     """
 
@@ -105,7 +106,7 @@ def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Lin
 
 
 def linearised(system: System, contact_jacobian: np.ndarray) -> Linearisation:
-    """Linearise a vehicle whose contacts have this Jacobian (24, 40).
+    """Linearise a vehicle whose contacts have this Jacobian (24, 44).
 
     Notes
     -----
@@ -131,13 +132,16 @@ class Equilibrium(NamedTuple):
     """Steady running: state, largest residual as an acceleration, contact results, status.
 
     results : (4, zones, patch.RESULTS)
-    status : one of `STATUS`
+    status : one of `STATUS`; outside a table the results of that contact are not a number
+    needed_yaw : rad of a wheel against its rail where the status is `outside_profile`, beyond the
+        tables' or not; else not a number
     """
 
     state: np.ndarray
     residual: float
     results: np.ndarray
     status: str
+    needed_yaw: float = np.nan
 
 
 def equilibrium(
@@ -180,7 +184,28 @@ def equilibrium(
     )
     status = _status(results, residual, tolerance)
     logger.info("equilibrium: %s, residual %.1e", status, residual)
-    return Equilibrium(state, residual, results, status)
+    needed = np.nan
+    if status == "outside_profile":
+        needed = _needed_yaw(system, state)
+        logger.warning(
+            "a contact is outside its table, which reaches a yaw of %.4f rad; it needs %.4f rad",
+            _table_yaw(system), needed,
+        )  # fmt: skip
+        # Numbers held at the end of a table are no results.
+        outside = results[..., patch.STATUS] == patch.INVALID
+        results[..., : patch.RESULTS][outside] = np.nan
+        results[..., patch.STATUS][outside] = patch.INVALID
+    return Equilibrium(state, residual, results, status, needed)
+
+
+def _table_yaw(system: System) -> float:
+    """Largest yaw angle in rad of the contact tables."""
+    return float(np.arctan(np.sqrt(system.contacts.tables[0].high[2])))
+
+
+def _needed_yaw(system: System, state: np.ndarray) -> float:
+    """Largest yaw angle in rad of a wheel against its rail in a state."""
+    return max(wheel_forces.headings(system.contacts, system.curvatures, system.local(state)))
 
 
 def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:
@@ -224,18 +249,38 @@ def angle_of_attack(system: System, equilibrium_: Equilibrium) -> np.ndarray:
     return np.array([-motion[f"{axle}_axle"][5, :k] @ equilibrium_.state[:k] for axle in AXLES])
 
 
-def enter_curve(systems: list[System], start: np.ndarray, tolerance: float = 1e-9) -> Equilibrium:
-    """Equilibrium on the last of several systems, followed through them from a start.
+def enter_curve(
+    systems: list[System], start: np.ndarray, tolerance: float = 1e-9, halvings: int = 5
+) -> Equilibrium:
+    """Equilibrium on the last of several systems, followed through them from the first one's.
 
     Parameters
     ----------
     systems : the vehicle on tracks of growing curvature, from straight to the curve wanted
-    start : as in `equilibrium`
+    start : state on the first of them
+    tolerance : of the last, as in `equilibrium`
+    halvings : of a step from one track to the next that loses the equilibrium, at most
     """
     state = start
-    for system in systems[:-1]:
-        state = equilibrium(system, state, 1e-3, 60).state
+    for known, system in itertools.pairwise(systems):
+        state = _followed(known, state, system, halvings).state
     return equilibrium(systems[-1], state, tolerance)
+
+
+def _followed(known: System, state: np.ndarray, system: System, halvings: int) -> Equilibrium:
+    """Rough equilibrium on a track, from that on another; by way of tracks between if needed."""
+    found = equilibrium(system, state, 1e-3, 60)
+    if found.status == "converged" or halvings == 0:
+        return found
+    # Curvatures, offsets and loads of the frames are linear in the curvature and cant of the track.
+    between = system._replace(
+        curvatures=0.5 * (known.curvatures + system.curvatures),
+        load=0.5 * (known.load + system.load),
+    )
+    middle = _followed(known, state, between, halvings - 1)
+    if middle.status != "converged":
+        return found
+    return _followed(between, middle.state, system, halvings - 1)
 
 
 def oscillations(eigenvalue: np.ndarray, limits: tuple[float, float]) -> np.ndarray:

@@ -26,14 +26,15 @@ RECORDED = (
     patch.NORMAL_FORCE, patch.CONTACT_ANGLE, patch.LONGITUDINAL_CREEPAGE, patch.LATERAL_CREEPAGE,
     patch.SPIN_CREEPAGE, patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL,
     patch.WHEEL_POSITION, patch.FORWARD_SHIFT, patch.SLIP_VELOCITY, patch.FRICTION,
+    patch.WHEEL_LEAD,
 )  # fmt: skip
 
 
 class ModalContacts(NamedTuple):
     """What the contacts are to the m modes near an equilibrium.
 
-    output : (2 m, 40), local variables of the contacts; forcing : (24, 2 m), from their forces
-    local, force, jacobian : (40,), (24,), (24, 40) at the equilibrium
+    output : (2 m, 44), local variables of the contacts; forcing : (24, 2 m), from their forces
+    local, force, jacobian : (44,), (24,), (24, 44) at the equilibrium
     """
 
     output: np.ndarray
@@ -94,7 +95,7 @@ class Excitation(NamedTuple):
     deviations: where the vehicle is linear, the response is exact at any step.
 
     amplitude, phase : (4, zones) radius deviation at the contacts of the wheels, m and rad
-    local : (2, 40), linear response of the local variables, real and imaginary part
+    local : (2, 44), linear response of the local variables, real and imaginary part
     contact_force : (2, 24), linear forces of the radius deviations themselves
     force : (2 m,) packed modal forcing, per second, without the wheels' deviations
     """
@@ -282,7 +283,7 @@ def run(
     time : s at the start
     z : (2 m,) packed modal state
     work : from `workspace`
-    locals_out : (k, 40); results_out : (k, 4, zones, columns), receive the output
+    locals_out : (k, 44); results_out : (k, 4, zones, columns), receive the output
     columns : indices of `patch` results to record; every : intervals per output
 
     Returns
@@ -333,4 +334,4 @@ def workspace(contacts: wheel_forces.Contacts) -> tuple:
     """Scratch arrays for `run`."""
     scratch, results = wheel_forces.workspace(contacts)
     deviation, rate = np.empty((2, 4, len(contacts.tables)))
-    return np.empty(40), np.empty(24), np.empty(3), deviation, rate, scratch, results
+    return np.empty(44), np.empty(24), np.empty(3), deviation, rate, scratch, results

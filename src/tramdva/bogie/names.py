@@ -5,7 +5,7 @@ WHEELS = ("front_outer", "front_inner", "rear_outer", "rear_inner")
 AXLE_OF_WHEEL = (0, 0, 1, 1)
 SIDE = (-1.0, 1.0, -1.0, 1.0)  # the curve goes to the left: outer wheels are right
 # What a contact sees of its wheel, and what it does to it.
-LOCAL = ("y", "z", "roll", "yaw", "vx", "vy", "vz", "roll_rate", "spin_rate", "yaw_rate")
+LOCAL = ("y", "z", "roll", "yaw", "vx", "vy", "vz", "roll_rate", "spin_rate", "yaw_rate", "x")
 FORCES = ("x", "y", "z", "roll", "spin", "yaw")
 ENERGY_CLASSES = (
     "symmetric_bending", "antisymmetric_bending", "lateral_bending", "axle_torsion", "primary",

@@ -6,7 +6,7 @@ A run takes its values from the configuration, which says where each comes from.
 from tramdva.bogie.parameters import Bogie, Track
 from tramdva.bogie.tram import BogieLine
 from tramdva.contact.parameters import ContactGeometry
-from tramdva.contact.tables import zone_tables
+from tramdva.contact.tables import yaw_reach, zone_tables
 
 FRICTION = (0.35, 0.36, 0.7)
 TRACK = {
@@ -64,7 +64,7 @@ BOGIE = {
         "torsional_stiffness": 1200000.0,
         "axial_stiffness": 1000000000.0,
         "polar_inertia_per_length": 0.6,
-        "damping_ratio": 0.036688,
+        "damping_ratio": 0.036628,
         "damping_reference_frequency": 60,
         "damping_exponent": 0.7,
     },
@@ -153,12 +153,14 @@ def paper_bogie(
         With the friction of self-excitation.
     """
     bogie, geometry = Bogie.model_validate(BOGIE), ContactGeometry.model_validate(CONTACT_GEOMETRY)
+    track = Track.model_validate(TRACK)
+    reach = yaw_reach(track.radius, bogie.half_wheelbase, bogie.wheel.half_distance)
     return BogieLine(
         bogie,
-        Track.model_validate(TRACK),
+        track,
         geometry,
         FRICTION,
-        zone_tables(geometry, bogie.wheel.radius, shift_step, yaw_nodes),
+        zone_tables(geometry, bogie.wheel.radius, shift_step, yaw_nodes, yaw_limit=reach),
         grid,
         cutoff_frequency,
         elements_per_section=4,

@@ -14,7 +14,7 @@ logger = logging.getLogger(__name__)
 
 STATUS = ("periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite")
 # Velocities among the local variables: they weigh all frequencies alike, positions do not.
-_RATES = np.tile(np.arange(wheel_forces.LOCALS) >= LOCAL.index("vx"), 4)
+_RATES = np.tile([name.startswith("v") or name.endswith("rate") for name in LOCAL], 4)
 
 
 class Settings(NamedTuple):

@@ -18,7 +18,7 @@ class Ride(NamedTuple):
     """Output of a time integration.
 
     time : (k,) in s
-    local : (k, 40), local variables of the contacts (`vehicle.LOCAL` per wheel)
+    local : (k, 44), local variables of the contacts (`vehicle.LOCAL` per wheel)
     results : (k, 4, zones, columns), `integration.RECORDED` of each zone
     status : one of `integration.STATUS`; after an early end the output is NaN
     evaluations : of the contacts
@@ -85,7 +85,7 @@ def ride(route: Route, duration: float, interval: float, every: int, tolerance: 
     samples = intervals // every
     contacts = route.systems[0].contacts
     zones = len(contacts.tables)
-    local = np.full((samples, 40), np.nan)
+    local = np.full((samples, 44), np.nan)
     results = np.full((samples, 4, zones, len(integration.RECORDED)), np.nan)
     columns = np.array(integration.RECORDED)
     work = integration.workspace(contacts)

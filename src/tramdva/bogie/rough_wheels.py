@@ -2,9 +2,9 @@
 
 A wave of order n around a wheel comes to the rail with the angular frequency n V / r_0; all wheels
 that are out of round turn by s / r_0 and carry the wave in phase. So a wheel that rolls along its
-own rail at V_w counts as one of radius r_w = r_0 V_w / V. A contact that lies ahead of the wheel's
-centre by x_c meets the material point x_c / r_w further: the deviation there is
-r(V t / r_0 + x_c / r_w).
+own rail at V_w counts as one of radius r_w = r_0 V_w / V. A contact that lies ahead of the lowest
+point of its circle by x_c, along the wheel, meets the material point x_c / r_w further: the
+deviation there is r(V t / r_0 + x_c / r_w).
 """
 
 from collections.abc import Collection
@@ -13,9 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie import wheel_forces
-from tramdva.bogie.curving import Equilibrium, System
 from tramdva.bogie.integration import Excitation, ModalContacts
-from tramdva.bogie.modal import modal_basis
 from tramdva.bogie.names import WHEELS
 from tramdva.contact import patch
 
@@ -27,7 +25,7 @@ class RoughBogie(NamedTuple):
     modal : integration.ModalContacts, the contacts in these modes
     curvatures : (3,) in 1/m per frame
     results : (4, zones, patch.RESULTS) of the contacts in equilibrium
-    sensitivity : running.RadiusSensitivity
+    sensitivity : wheel_forces.RadiusSensitivity
     rolling_speed : (4,) m/s, of each wheel along its rail
     """
 
@@ -44,31 +42,15 @@ class RoughBogie(NamedTuple):
         return self.results[..., patch.STATUS] == patch.CONTACT
 
 
-def rough_bogie(system: System, equilibrium: Equilibrium) -> RoughBogie:
-    """Linearise a vehicle at its equilibrium, radius deviations included."""
-    places = system.contacts.places
-    local = system.local(equilibrium.state)
-    curvature = system.curvatures[places.axle]
-    basis = modal_basis(system, equilibrium)
-    return RoughBogie(
-        basis.eigenvalue,
-        basis.contact,
-        system.curvatures,
-        equilibrium.results[..., : patch.RESULTS],
-        wheel_forces.radius_sensitivity(system.contacts, system.curvatures, local),
-        places.speed * (1.0 - curvature * places.lateral_position),
-    )
-
-
 def wheel_mask(wheels: Collection[str]) -> np.ndarray:
     """Whether each of `names.WHEELS` is named in `wheels`, as numbers (4,)."""
     return np.array([float(name in wheels) for name in WHEELS])
 
 
 def contact_angles(bogie: RoughBogie, wheel_radius: float, speed: float) -> np.ndarray:
-    """Angle (4, zones) in rad by which the contacts lie ahead of the wheels' centres."""
-    shift = np.where(bogie.touching, bogie.results[..., patch.FORWARD_SHIFT], 0.0)
-    return shift / rolling_radius(bogie, wheel_radius, speed)[:, None]
+    """Angle (4, zones) in rad by which the contacts lie ahead of the wheels' lowest points."""
+    lead = np.where(bogie.touching, bogie.results[..., patch.WHEEL_LEAD], 0.0)
+    return lead / rolling_radius(bogie, wheel_radius, speed)[:, None]
 
 
 def rolling_radius(bogie: RoughBogie, wheel_radius: float, speed: float) -> np.ndarray:
@@ -123,7 +105,7 @@ def deviation_forces(
 def local_response(
     bogie: RoughBogie, angular_frequency: np.ndarray, source: np.ndarray
 ) -> np.ndarray:
-    """Complex amplitudes (f, 40) of the local variables of the contacts.
+    """Complex amplitudes (f, 44) of the local variables of the contacts.
 
     Parameters
     ----------

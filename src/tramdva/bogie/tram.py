@@ -136,7 +136,7 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     shares = np.linspace(0.0, 1.0, curvature_steps + 1)
     tracks = systems(line, None, shares)
     straight = equilibrium(tracks[0], resting_start(tracks[0]))
-    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks[1:], straight.state))
+    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks, straight.state))
 
 
 def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Running:

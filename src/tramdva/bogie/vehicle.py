@@ -35,7 +35,7 @@ class Vehicle(NamedTuple):
     frame_motion : (n, 9) motion of all coordinates with the frames (`track.FRAMES` x 3)
     rise : (n,) motion with a vertical displacement of everything
     constant_load : (n,) N, N m: drag of the bearings at running speed
-    local_position, local_velocity : (40, n), local variables of the contacts from q and v
+    local_position, local_velocity : (44, n), local variables of the contacts from q and v
     force_input : (n, 24), generalised forces from the forces of the contacts
     names : (n,) texts
     axles : flexible axle bridge, the same for both axles
@@ -379,14 +379,15 @@ def _frame_motion(layout: _Layout, bogie, absorber) -> tuple[np.ndarray, np.ndar
 
 
 def _contact_maps(layout: _Layout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Local variables of the contacts from q and v (40, n) each, forces on coordinates (n, 24)."""
+    """Local variables of the contacts from q and v (44, n) each, forces on coordinates (n, 24)."""
     position, velocity = np.zeros((2, 4 * len(LOCAL), layout.size))
     force = np.zeros((layout.size, 4 * len(FORCES)))
     for wheel, name in enumerate(WHEELS):
         rim = layout.body(f"{name}_rim")
         rows = slice(len(LOCAL) * wheel, len(LOCAL) * (wheel + 1))
         position[rows][:4] = rim[[1, 2, 3, 5]]
-        velocity[rows][4:] = rim
+        velocity[rows][4:10] = rim
+        position[rows][10] = rim[0]
         force[:, len(FORCES) * wheel : len(FORCES) * (wheel + 1)] = rim.T
     return position, velocity, force
 

@@ -1,7 +1,8 @@
 """Vehicle on the track: the forces of the four wheels in the contact, compiled.
 
-A wheel sees ten local variables (`vehicle.LOCAL`): position and angles of its rim relative to the
-rail (m, rad) and the rates of its six motions relative to the frame of its axle (m/s, rad/s). The
+A wheel sees eleven local variables (`vehicle.LOCAL`): position and angles of its rim relative to
+the rail (m, rad), the rates of its six motions relative to the frame of its axle (m/s, rad/s), and
+how far it is ahead of that frame (m). The
 contact answers with six generalised forces (`vehicle.FORCES`, N and N m). Zones of the profile
 (tread and flange) act at once.
 """
@@ -12,9 +13,9 @@ import numpy as np
 from numba import njit
 
 from tramdva.bogie.names import AXLE_OF_WHEEL, FORCES, LOCAL, SIDE
-from tramdva.contact import patch
+from tramdva.contact import patch, yawed_wheel
 
-LOCALS, WHEEL_FORCES = len(LOCAL), len(FORCES)
+LOCALS, WHEEL_FORCES, X = len(LOCAL), len(FORCES), LOCAL.index("x")
 
 
 class WheelPlaces(NamedTuple):
@@ -59,34 +60,37 @@ def wheel_places(
     )
 
 
-# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw).
+# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw, x).
 PLACE = patch.RESULTS
-COLUMNS = PLACE + 4
+COLUMNS = PLACE + 5
 # A radius deviation of this size (m) is allowed for.
 _DEVIATION = 1e-4
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _still_apart(result, y, z, roll, yaw):
+def _still_apart(result, y, z, roll, yaw, x):
     """Whether a zone that was apart cannot touch yet.
 
     The gap is a distance: it changes by no more than the wheel moves. Its slope in the yaw angle,
-    R tan(delta)^2 tan(yaw), stays below 0.3 m/rad, that in the roll angle below the radius.
+    R tan(delta)^2 tan(yaw), stays below 0.3 m/rad, that in the roll angle below the radius; the
+    forward motion counts by the tangent of the yaw angle.
     """
     if result[patch.STATUS] != patch.NO_CONTACT or result[patch.PENETRATION] >= 0.0:
         return False
     moved = abs(y - result[PLACE]) + abs(z - result[PLACE + 1])
     moved += 0.6 * abs(roll - result[PLACE + 2]) + 0.3 * abs(yaw - result[PLACE + 3])
+    moved += 0.1 * abs(x - result[PLACE + 4])
     return moved + _DEVIATION + result[patch.PENETRATION] < 0.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _remember(result, y, z, roll, yaw):
+def _remember(result, y, z, roll, yaw, x):
     """Note where a zone was evaluated."""
     result[PLACE] = y
     result[PLACE + 1] = z
     result[PLACE + 2] = roll
     result[PLACE + 3] = yaw
+    result[PLACE + 4] = x
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -100,7 +104,7 @@ def wheel_forces(
     contacts : Contacts
     wheel : index in `vehicle.WHEELS`
     curvature : 1/m at the axle's frame
-    local : (10,) local variables of the wheel
+    local : (11,) local variables of the wheel
     deviation, deviation_rate : (zones,) m and m/s, radius deviation at the contact of each zone,
         crest positive
     scratch : (rows, work) of `patch.contact_workspace`
@@ -109,7 +113,9 @@ def wheel_forces(
 
     Notes
     -----
-    The spin turns about the wheel's own axis (-yaw, 1, roll), which moves with the rim.
+    The spin turns about the wheel's own axis, which moves with the rim. A yawed axle carries the
+    wheel's centre along the track, where the rail, a circle, has another direction. Motions of the
+    wheel and forces on it are taken in the axes of the yawed axle, to which its springs belong.
     """
     places = contacts.places
     side = places.side[wheel]
@@ -119,32 +125,43 @@ def wheel_forces(
     turning = speed * curvature
     spin = places.spin_rate + local[8]
     yaw_rate = local[9] + turning
-    velocity = (
-        speed - turning * (places.lateral_position[wheel] + y) + local[4] - yaw_rate * arm,
-        local[5],
-        local[6] + local[7] * arm,
-    )
-    rotation = (local[7] - spin * yaw, spin, yaw_rate + spin * roll)
-    position = (y - side * places.rail, z + roll * arm)
-    rolling = speed - turning * places.lateral_position[wheel]
+    # A yawed axle carries the wheel on an arc: ahead or back, and nearer to the track's centre.
+    base = places.lateral_position[wheel]
+    across = y + base * (np.sqrt(1.0 - (local[X] / base) ** 2) - 1.0)
+    ahead = local[X] - arm * np.sin(yaw)
+    rail_curvature = curvature / (1.0 - curvature * (base + arm + side * places.rail))
+    turn = rail_curvature * ahead
+    heading = yaw - turn
+    axis = yawed_wheel.wheel_axis(roll, heading)
+    # Along the rail: the motion of the frame, then that of the wheel beside it, in the axle's axes.
+    v_x, v_y = yawed_wheel.turned(turn, speed - turning * (base + across), turning * ahead)
+    own_x, own_y = yawed_wheel.turned(-heading, local[4] - yaw_rate * arm, local[5])
+    roll_rate, pitch_rate = yawed_wheel.turned(-heading, local[7], 0.0)
+    velocity = (v_x + own_x, v_y + own_y, local[6] + local[7] * arm)
+    rotation = (roll_rate + spin * axis[0], pitch_rate + spin * axis[1], yaw_rate + spin * axis[2])
+    position = (across - 0.5 * turn * ahead - side * places.rail, z + roll * arm)
+    rolling = speed - turning * base
     force[:] = 0.0
     for zone in range(len(contacts.tables)):
         result = results[zone]
-        if _still_apart(result, y, z, roll, yaw):
+        if _still_apart(result, y, z, roll, yaw, local[X]):
             continue
         f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
-            contacts.tables[zone], contacts.law, side, position, (roll, yaw), velocity, rotation,
-            rolling, deviation[zone], deviation_rate[zone], scratch[0], scratch[1], result,
+            contacts.tables[zone], contacts.law, side, position, (roll, heading), velocity,
+            rotation, rolling, deviation[zone], deviation_rate[zone], rail_curvature, scratch[0],
+            scratch[1], result,
         )  # fmt: skip
         if result[patch.PENETRATION] < 0.0:
             # A zone that does not touch may lie outside its table.
             result[patch.STATUS] = patch.NO_CONTACT
-        _remember(result, y, z, roll, yaw)
+        _remember(result, y, z, roll, yaw, local[X])
+        force[4] += axis[0] * m_x + axis[1] * m_y + axis[2] * m_z
+        f_x, f_y = yawed_wheel.turned(heading, f_x, f_y)
+        m_x, _ = yawed_wheel.turned(heading, m_x, m_y)
         force[0] += f_x
         force[1] += f_y
         force[2] += f_z
         force[3] += m_x + arm * f_z
-        force[4] += m_y - yaw * m_x + roll * m_z
         force[5] += m_z - arm * f_x
 
 
@@ -152,7 +169,7 @@ def wheel_forces(
 def all_wheel_forces(
     contacts, curvatures, local, deviation, deviation_rate, scratch, results, force
 ):
-    """Forces (24,) of all wheels from the local variables (40,); results (4, zones, COLUMNS).
+    """Forces (24,) of all wheels from the local variables (44,); results (4, zones, COLUMNS).
 
     `curvatures` (3,) per frame; `deviation` and `deviation_rate` (4, zones).
     """
@@ -172,13 +189,13 @@ def all_wheel_forces(
 
 # Steps of the central differences in the local variables, then in radius deviation (m) and its
 # rate (m/s): well below the scales of contact, above rounding.
-_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6, 1e-8, 1e-6])
+_STEPS = np.array([1e-8, 1e-8, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6, 1e-6, 1e-5, 1e-6, 1e-7, 1e-8, 1e-6])
 
 
 class RadiusSensitivity(NamedTuple):
     """Derivatives of contact results and wheel forces in the small.
 
-    local : (4, zones, RESULTS, 10), results in the local variables of their wheel
+    local : (4, zones, RESULTS, 11), results in the local variables of their wheel
     deviation : (4, zones, RESULTS, 2), in the zone's radius deviation (m) and its rate (m/s)
     force : (4, zones, 6, 2), forces on the wheel in a zone's radius deviation and its rate
     """
@@ -190,9 +207,9 @@ class RadiusSensitivity(NamedTuple):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, jacobian, out):
-    """Fill `jacobian` (4, 6, 10) and the arrays `out` of a `RadiusSensitivity` by differences.
+    """Fill `jacobian` (4, 6, 11) and the arrays `out` of a `RadiusSensitivity` by differences.
 
-    These are central, with `steps` (12,). The first ten of the `cases` change a local variable,
+    These are central, with `steps` (13,). The first eleven of the `cases` change a local variable,
     the others radius deviation and rate, zone by zone.
     """
     by_local, by_deviation, by_force = out
@@ -239,17 +256,26 @@ def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
 def contact_forces(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Forces (24,) and results (4, zones, COLUMNS) at local variables (40,) with round wheels."""
+    """Forces (24,) and results (4, zones, COLUMNS) at local variables (44,) with round wheels."""
     scratch, results = workspace(contacts)
     force, zero = np.empty(4 * WHEEL_FORCES), np.zeros((4, len(contacts.tables)))
     all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
     return force, results
 
 
+def headings(contacts: Contacts, curvatures: np.ndarray, local: np.ndarray) -> np.ndarray:
+    """Magnitudes (4,) in rad of the yaw of the wheels against their rails abreast of them."""
+    wheel, places = local.reshape(4, LOCALS), contacts.places
+    curvature = curvatures[places.axle]
+    return np.abs(
+        wheel[:, 3] - curvature / (1.0 - curvature * places.lateral_position) * wheel[:, X]
+    )
+
+
 def _derivatives(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float, deviations: bool
 ) -> tuple[np.ndarray, RadiusSensitivity]:
-    """Blocks (4, 6, 10) of the Jacobian, and the sensitivity; in radius deviations if wanted."""
+    """Blocks (4, 6, 11) of the Jacobian, and the sensitivity; in radius deviations if wanted."""
     scratch, results = workspace(contacts)
     zones = len(contacts.tables)
     blocks = np.zeros((4, WHEEL_FORCES, LOCALS))
@@ -267,7 +293,7 @@ def _derivatives(
 def contact_jacobian(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
 ) -> np.ndarray:
-    """Derivatives (24, 40) of the forces in the local variables; `scale` of the steps."""
+    """Derivatives (24, 44) of the forces in the local variables; `scale` of the steps."""
     blocks, _ = _derivatives(contacts, curvatures, local, scale, deviations=False)
     jacobian = np.zeros((4 * WHEEL_FORCES, 4 * LOCALS))
     for wheel, block in enumerate(blocks):
@@ -279,5 +305,5 @@ def contact_jacobian(
 def radius_sensitivity(
     contacts: Contacts, curvatures: np.ndarray, local: np.ndarray, scale: float = 1.0
 ) -> RadiusSensitivity:
-    """Sensitivity of the contacts at local variables (40,); `scale` of the steps."""
+    """Sensitivity of the contacts at local variables (44,); `scale` of the steps."""
     return _derivatives(contacts, curvatures, local, scale, deviations=True)[1]

@@ -102,6 +102,9 @@ USES: dict[str, tuple[str, ...]] = {
     "contact_geometry": (
         "contact_geometry",
         "bogie.wheel.radius",
+        "bogie.wheel.half_distance",
+        "bogie.half_wheelbase",
+        "track.radius",
         "measured.wheel",
         "measured.rail",
         "numerics.contact_geometry",

@@ -10,6 +10,7 @@ Differences from the textbook algorithm, derived in `docs/contact.md`:
   its own length. Adhesion is integrated exactly and full sliding gives mu N exactly.
 * All strips advance together, one node after the other: the inner loop is over strips and
   compiles to vector instructions.
+* The patch may be turned against rolling: its strips' centres then lie on a slanted line.
 * The traction bound may be parabolic, elliptic, or `balanced` (default): every strip carries its
   Hertzian share of mu N and the exponent along the strip stands midway between the other two.
 """
@@ -96,15 +97,16 @@ def patch_grid(cells_along: int, strips: int, bound: str = "balanced") -> PatchG
 
 def workspace(grid: PatchGrid) -> np.ndarray:
     """Scratch array for `fastsim_forces`, one per thread."""
-    return np.zeros((4, grid.offset.size))
+    return np.zeros((5, grid.offset.size))
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _march(grid, qx, qy, drive_x, limit, area, half_length, offset, rate_y, rate_spin):
+def _march(grid, qx, qy, drive_x, drive_y, limit, area, half_length, offset, rate_spin, shear):
     """Advance all strips over every node; integrals of q_x, q_y and of the moment.
 
-    `drive_x` holds the change of q_x per unit of strip coordinate, `limit` the bound of the
-    strip; half lengths and offsets are in units of a and b, and so is `rate_spin`.
+    `drive_x` and `drive_y` hold the change of q per unit of strip coordinate without the spin along
+    the strip, `limit` the bound of the strip; half lengths and offsets are in units of a and b, and
+    so is `rate_spin`. `shear` carries the strips' centres into the moment.
     """
     force_x = force_y = moment_x = moment_y = 0.0
     for k in range(grid.node.size):
@@ -114,7 +116,7 @@ def _march(grid, qx, qy, drive_x, limit, area, half_length, offset, rate_y, rate
         for j in range(qx.size):
             half = half_length[j]
             trial_x = qx[j] - step * drive_x[j]
-            trial_y = qy[j] - step * half * (rate_y + spin_rate * half)
+            trial_y = qy[j] - step * (drive_y[j] + spin_rate * half * half)
             capacity = bound * limit[j]
             squared = trial_x * trial_x + trial_y * trial_y
             scale = capacity / np.sqrt(max(squared, capacity * capacity))
@@ -126,7 +128,7 @@ def _march(grid, qx, qy, drive_x, limit, area, half_length, offset, rate_y, rate
             part_y = area[j] * trial_y
             total_x += part_x
             total_y += part_y
-            arm_x += offset[j] * part_x
+            arm_x += offset[j] * (part_x - shear * part_y)
             arm_y += half * part_y
         force_x += weight * total_x
         force_y += weight * total_y
@@ -147,6 +149,7 @@ def fastsim_forces(
     flexibility,
     grid,
     work,
+    shear=0.0,
 ):
     """Creep forces and spin moment on the wheel.
 
@@ -159,7 +162,8 @@ def fastsim_forces(
     spin_creepage : 1/m
     flexibility : (L1, L2, L3) in m/Pa, from `kalker.flexibilities`
     grid : PatchGrid
-    work : (4, strips) scratch array from `workspace`
+    work : (5, strips) scratch array from `workspace`
+    shear : of a turned patch: the strip at the lateral place y has its centre at shear y
 
     Returns
     -------
@@ -189,22 +193,24 @@ def fastsim_forces(
     nu_x, nu_y, phi = longitudinal_creepage, lateral_creepage, spin_creepage
     rate_x, rate_y, rate_spin = nu_x / flexibility[0], nu_y / flexibility[1], phi / flexibility[2]
     scale = friction_coefficient * normal_force / (a * b)
-    qx, qy, drive_x, limit = work[0], work[1], work[2], work[3]
+    qx, qy, drive_x, drive_y, limit = work[0], work[1], work[2], work[3], work[4]
     for j in range(qx.size):
         qx[j] = 0.0
         qy[j] = 0.0
         drive_x[j] = a * grid.half_length[j] * (rate_x - rate_spin * b * grid.offset[j])
+        drive_y[j] = a * grid.half_length[j] * (rate_y + rate_spin * shear * b * grid.offset[j])
         limit[j] = scale * grid.bound_across[j]
     force_x, force_y, moment_x, moment_y = _march(
         grid,
         qx,
         qy,
         drive_x,
+        drive_y,
         limit,
         grid.strip_area,
         grid.half_length,
         grid.offset,
-        a * rate_y,
         a * a * rate_spin,
+        shear,
     )
     return a * b * force_x, a * b * force_y, a * b * (a * moment_y - b * moment_x)

@@ -107,7 +107,7 @@ def _zone(wheel: Profile, inner: float | None, outer: float | None):
             retreat = 0.5 * RETREAT * distance**2
             z[beyond] = wheel.depth_at(split) + tangent * distance - retreat
             slope[beyond] = tangent - RETREAT * distance
-    return y, z, slope
+    return y, z, slope, -np.gradient(slope, y) / (1.0 + slope**2) ** 1.5
 
 
 def contact_tables(
@@ -295,6 +295,37 @@ def touch_height(table, shift, roll, yaw, rows):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def approximate_contact(table, shift, height, roll, yaw):
+    """Slope of the locus and position on the wheel (m) at a relative position, after one step.
+
+    For what is small beside the contact itself; arguments as `locate_contact`.
+    """
+    coefficients, step = table.coefficients, table.step[0]
+    tangent = np.tan(yaw)
+    roll_cell, roll_fraction, _ = _cell(table, 1, roll)
+    yaw_cell, yaw_fraction, _ = _cell(table, 2, tangent * tangent)
+    start, t, _ = _cell(table, 0, shift + table.shear * tangent * tangent)
+    roll_weights, yaw_weights, w = _weights(roll_fraction), _weights(yaw_fraction), _weights(t)
+    a = b = c = d = position = 0.0
+    for k in range(4):
+        for m in range(4):
+            weight = roll_weights[k] * yaw_weights[m]
+            rows = coefficients[roll_cell + k, yaw_cell + m]
+            a += weight * rows[start, 0]
+            b += weight * rows[start + 1, 0]
+            c += weight * rows[start + 2, 0]
+            d += weight * rows[start + 3, 0]
+            position += weight * (w[1] * rows[start + 1, 1] + w[2] * rows[start + 2, 1])
+    s = 1.0 - t
+    value = w[0] * a + w[1] * b + w[2] * c + w[3] * d
+    slope = 0.5 * (s * s * (b - a) + 2.0 * (t * s + 0.5) * (c - b) + t * t * (d - c)) / step
+    bend = (s * (a - 2.0 * b + c) + t * (b - 2.0 * c + d)) / (step * step)
+    above = max(value - height, -FAR)
+    slope -= bend * above * slope / max(1.0 + slope * slope + above * bend, 0.5)
+    return slope, position / (w[1] + w[2])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def locate_contact(table, shift, height, roll, yaw, rows):
     """Contact of one zone at a relative position.
 
@@ -310,8 +341,9 @@ def locate_contact(table, shift, height, roll, yaw, rows):
     penetration : m, along the contact normal; negative: distance
     contact_angle : rad, positive at the flange
     wheel_position, wheel_depth, rail_position, rail_depth : m
-    curvature_lateral : 1/m, sum of both bodies
+    curvature_lateral : 1/m, of the wheel's silhouette and the rail
     status : 0, or OUTSIDE_TABLE if shift, roll or yaw were held at the ends of the table
+    meridian_curvature : 1/m, of the wheel's profile, positive where it is convex
 
     Notes
     -----
@@ -354,4 +386,5 @@ def locate_contact(table, shift, height, roll, yaw, rows):
         _column(rows, i, w, 4),
         np.exp(_column(rows, i, w, 5)),
         OUTSIDE_TABLE if (roll_out or yaw_out or shift_out) else 0,
+        _column(rows, i, w, 6),
     )

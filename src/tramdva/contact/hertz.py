@@ -1,4 +1,4 @@
-"""Hertz contact of two bodies with parallel principal directions.
+"""Hertz contact of two bodies, also where its principal directions are turned against rolling.
 
 Near the contact point the gap is A x^2 + B y^2 (x along rolling, y lateral). With penetration
 delta, effective modulus E* and the functions of ln(B / A) tabulated here,
@@ -107,6 +107,41 @@ def hertz_ellipse(table, curvature_longitudinal, curvature_lateral, modulus, pen
     semi_longitudinal = hermite(table, index, fraction, 1) * length
     semi_lateral = hermite(table, index, fraction, 2) * length
     return normal, semi_longitudinal, semi_lateral
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def turned_ellipse(table, along, mixed, across, modulus, penetration):
+    """Normal force and patch of bodies whose relative curvature is a tensor in the axes of rolling.
+
+    Parameters
+    ----------
+    table : from `hertz_table`
+    along, mixed, across : 1/m, parts xx, xt and tt of the tensor; x along rolling, t lateral
+    modulus : E* in Pa
+    penetration : m; zero or negative means no contact
+
+    Returns
+    -------
+    normal_force in N; half length in m of the strip through the centre, along rolling; half width
+    in m of the patch, across; shear: the strip at t has its centre at x = shear t. Not a number
+    where the tensor is not positive: such bodies do not touch in one point.
+
+    Notes
+    -----
+    In principal axes, at the angle beta to those of rolling, the patch is an ellipse (a, b). With
+    C = rotation diag(a^2, b^2) rotation^T its half width is C_tt^(1/2), the shear C_xt / C_tt, and
+    half length times half width is a b. A patch that is not turned has the shear zero.
+    """
+    if penetration <= 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    mean, half = 0.5 * (across + along), 0.5 * (across - along)
+    radius = np.sqrt(half * half + mixed * mixed)
+    if not mean > radius:
+        return np.nan, np.nan, np.nan, np.nan
+    normal, a, b = hertz_ellipse(table, mean - radius, mean + radius, modulus, penetration)
+    scale = 0.5 * (a * a - b * b) / max(radius, 1e-12 * mean)
+    width = np.sqrt(0.5 * (a * a + b * b) - scale * half)
+    return normal, a * b / width, width, -scale * mixed / (width * width)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -7,12 +7,16 @@ forward, o outwards (field side), d downwards; yaw gamma > 0 turns the heading o
 flange contact; roll > 0 lowers the outer side, about the profile's origin.
 
 Along the wheel the gap G of the two curves is averaged with the weights
-exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the mean position stands for the
-centre of the patch, the variance for the curvature that the patch sees, and the height at touch is
-the soft minimum of the gap, -epsilon log(integral of the weights): its slope in the shift is the
-mean contact angle. It equals the rigid height where the curvature sum is `REFERENCE_CURVATURE`
-(1/m); elsewhere it differs by (epsilon / 2) log of the ratio. `epsilon` belongs to a load: a Hertz
-pressure whose patch closes a gap h at its rim has the variance of epsilon = 2 h / 5.
+exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the variance stands for the
+curvature that the patch sees, and the soft minimum of the gap, -epsilon log(integral of the
+weights), makes a smooth height at touch, whose slope in the shift is the mean contact angle.
+
+That soft minimum lies (epsilon / 2) log(curvature) off the lowest gap, another amount on tread and
+root. So height and positions are those of epsilon and epsilon / 2, extrapolated to epsilon = 0
+(Richardson): exact where the curvature is constant, of second order in epsilon elsewhere. Between
+two places that touch at once the height rises above the lowest gap by at most 0.19 epsilon.
+`epsilon` belongs to a load: a Hertz pressure whose patch closes a gap h at its rim has the variance
+of epsilon = 2 h / 5.
 """
 
 import numpy as np
@@ -22,8 +26,13 @@ CUT = 20.0  # weights below exp(-CUT) are left out
 COARSE = 5  # points of the wheel per stretch of the first search
 MARGIN = 4e-3  # m, gap above the lowest beyond which a stretch is left out
 REFERENCE_CURVATURE = 10.0
-HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE = range(6)
-COLUMNS = 6
+(
+    HEIGHT, WHEEL_POSITION, WHEEL_DEPTH, RAIL_POSITION, RAIL_DEPTH, LOG_CURVATURE,
+    MERIDIAN_CURVATURE,
+) = range(7)  # fmt: skip
+COLUMNS = 7
+# Sums over the weights, beside those named above.
+TOTAL, OFFSET, SQUARE, STEEPNESS = 0, 3, 4, 5
 STRIDE = 8  # columns per table entry, padded to whole vector registers
 
 
@@ -111,24 +120,24 @@ def arc_lengths(outward, downward, length, cosine):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, epsilon, gap, out):
+def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     """Quasi-elastic contact of a wheel shifted by `shift` on a rail.
 
     Parameters
     ----------
     curve : (4, n) silhouette: outwards, downwards, length, cosine
-    wheel_position, wheel_depth : (n,) the profile coordinates of the silhouette's points
+    wheel : (4, n) position, depth, slope and curvature of the profile at the silhouette's points
     shift : m, lateral position of the wheel's origin relative to the rail's, outwards
     rail_grid : (first, spacing) in m; rail : (2, k) depth and slope on it
     epsilon : m, gap scale of the averaging
     gap : (n,) scratch array
     out : (COLUMNS,) array, receives height of the wheel's origin at touch (downwards), contact
-        position and depth on the wheel (its own axes) and on the rail, and ln of the lateral
-        curvature sum in 1/m
+        position and depth on the wheel (its own axes) and on the rail, ln of the lateral
+        curvature sum of the silhouette in 1/m, and the curvature of the wheel's profile in 1/m
     """
     first, spacing = rail_grid
     best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
-    total = mean_wheel = mean_depth = mean_offset = square = steepness = 0.0
+    sums = np.zeros((2, COLUMNS))
     lowest, centre, inverse = gap[best], curve[0, best], 1.0 / epsilon
     for i in range(gap.size):
         if gap[i] - lowest > MARGIN or curve[2, i] == 0.0:
@@ -136,24 +145,34 @@ def contact_column(curve, wheel_position, wheel_depth, shift, rail_grid, rail, e
         exponent = (gap[i] - lowest) * curve[3, i] * inverse
         if exponent > CUT:
             continue
-        weight = curve[2, i] * np.exp(-exponent)
+        share = np.exp(-exponent)
         offset = curve[0, i] - centre
-        total += weight
-        mean_wheel += weight * wheel_position[i]
-        mean_depth += weight * wheel_depth[i]
-        mean_offset += weight * offset
-        square += weight * offset * offset
-        steepness += weight * curve[3, i]
-    mean_offset /= total
-    variance = max(square / total - mean_offset * mean_offset, spacing * spacing)
-    cosine = steepness / total
+        for scale in range(2):
+            # The squared share belongs to half the scale.
+            weight = curve[2, i] * (share if scale == 0 else share * share)
+            sums[scale, TOTAL] += weight
+            sums[scale, WHEEL_POSITION] += weight * wheel[0, i]
+            sums[scale, WHEEL_DEPTH] += weight * wheel[1, i]
+            sums[scale, OFFSET] += weight * offset
+            sums[scale, SQUARE] += weight * offset * offset
+            sums[scale, STEEPNESS] += weight * curve[3, i]
+            sums[scale, MERIDIAN_CURVATURE] += weight * wheel[3, i]
+    for scale in range(2):
+        for k in range(1, COLUMNS):
+            sums[scale, k] /= sums[scale, TOTAL]
+    mean = 2.0 * sums[1] - sums[0]
+    cosine = sums[0, STEEPNESS]
+    variance = max(sums[0, SQUARE] - sums[0, OFFSET] ** 2, spacing * spacing)
     width = np.sqrt(2.0 * np.pi * epsilon / REFERENCE_CURVATURE)
-    out[HEIGHT] = lowest - epsilon / cosine * np.log(total / width)
-    out[WHEEL_POSITION] = mean_wheel / total
-    out[WHEEL_DEPTH] = mean_depth / total
-    out[RAIL_POSITION] = shift + centre + mean_offset
+    soft = epsilon / cosine * np.log(sums[0, TOTAL] / width)
+    softer = epsilon / sums[1, STEEPNESS] * np.log(sums[1, TOTAL] / (width * np.sqrt(0.5)))
+    out[HEIGHT] = lowest - (softer - soft)
+    out[WHEEL_POSITION] = mean[WHEEL_POSITION]
+    out[WHEEL_DEPTH] = mean[WHEEL_DEPTH]
+    out[RAIL_POSITION] = shift + centre + mean[OFFSET]
     out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
     out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
+    out[MERIDIAN_CURVATURE] = sums[0, MERIDIAN_CURVATURE]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -162,8 +181,8 @@ def fill_table(
 ):
     """Fill `table` of shape (shifts, rolls, yaws, STRIDE) by `contact_column`.
 
-    `wheel` is a (3, n) array: position, depth and slope of the profile; the table's shift is the
-    lateral shift plus `shear` (m) times tan(yaw)^2.
+    `wheel` is a (4, n) array: position, depth, slope and curvature (1/m, where convex positive) of
+    the profile; the table's shift is the lateral shift plus `shear` (m) times tan(yaw)^2.
     """
     curve = np.empty((4, wheel.shape[1]))
     gap = np.empty(wheel.shape[1])
@@ -175,8 +194,7 @@ def fill_table(
             for i in range(shifts.size):
                 contact_column(
                     curve,
-                    wheel[0],
-                    wheel[1],
+                    wheel,
                     shifts[i] - shear * tangent,
                     rail_grid,
                     rail,

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach
+from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach, yawed_wheel
 from tramdva.contact.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
@@ -24,8 +24,9 @@ METHODS = {"fastsim": FASTSIM, "polach": POLACH}
     CONTACT_ANGLE, LONGITUDINAL_CREEPAGE, LATERAL_CREEPAGE, SPIN_CREEPAGE,
     SEMI_AXIS_LONGITUDINAL, SEMI_AXIS_LATERAL, FRICTION, SLIP_VELOCITY, ROLLING_RADIUS,
     WHEEL_POSITION, RAIL_POSITION, FORWARD_SHIFT, CURVATURE_LATERAL, LATERAL_VELOCITY,
-) = range(20)  # fmt: skip
-RESULTS = 20
+    WHEEL_LEAD, SHEAR,
+) = range(22)  # fmt: skip
+RESULTS = 22
 
 
 class ContactLaw(NamedTuple):
@@ -124,8 +125,12 @@ def tangential_forces(
     lateral_creepage,
     spin_creepage,
     work,
+    shear,
 ):
-    """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method."""
+    """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method.
+
+    Polach's formula knows no patch that is turned: it leaves the shear out.
+    """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if law.method == POLACH:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
@@ -136,13 +141,16 @@ def tangential_forces(
     flexibility = kalker.flexibilities(law.kalker_table, a, b, law.shear_modulus)
     return fastsim.fastsim_forces(
         a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
-        flexibility, law.grid, work,
+        flexibility, law.grid, work, shear,
     )  # fmt: skip
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def contact_point(table, side, position, angles, radius_deviation, rows):
+def contact_point(table, side, position, angles, radius_deviation, rail_curvature, rows):
     """Contact in vehicle axes, before any force.
+
+    The rail is a circle in plan; x runs along it abreast of the wheel's centre. Where the contact
+    leads by c the rail has turned by c times its curvature: the results are in axes turned so.
 
     Parameters
     ----------
@@ -152,23 +160,33 @@ def contact_point(table, side, position, angles, radius_deviation, rows):
         tape circle on the rail's top
     angles : (roll, yaw) in rad, about x and z
     radius_deviation : m, out-of-roundness at the contact, crest positive
+    rail_curvature : 1/m in plan, to the left positive
     rows : scratch of `geometry.locate_contact`
 
     Returns
     -------
     As `geometry.locate_contact`, then the arm from the wheel centre to the contact point:
-    arm_x, arm_y, arm_z in m, and arm_x again as forward shift R tan(delta) tan(yaw).
+    arm_x, arm_y, arm_z in m, the yaw of the wheel and the turn of the axes in rad.
     """
-    roll, yaw = -side * angles[0], side * angles[1]
+    roll, yaw, lateral = -side * angles[0], angles[1], position[0]
     radius = table.wheel_radius
     # Out-of-roundness lowers the wheel: it acts like a larger radius along the normal.
-    shift = side * position[0] - radius * np.sin(roll)
     height = -position[1] - radius * (1.0 - np.cos(roll)) + radius_deviation
-    found = geometry.locate_contact(table, shift, height, roll, yaw, rows)
-    forward = (radius + found[3]) * np.tan(found[1]) * np.tan(yaw)
-    arm_outward = found[4] - side * position[0]
-    arm_down = found[5] + position[1] + radius
-    return found, forward, side * arm_outward, -arm_down
+    sway, turn = radius * np.sin(roll), 0.0
+    if rail_curvature != 0.0:
+        slope, on_wheel = geometry.approximate_contact(
+            table, side * lateral - sway, height, roll, side * yaw
+        )
+        lead = yawed_wheel.approximate_shift(radius, -slope, on_wheel, roll, side * yaw)
+        turn = rail_curvature * lead
+        yaw -= turn
+        lateral += 0.5 * turn * lead
+    found = geometry.locate_contact(table, side * lateral - sway, height, roll, side * yaw, rows)
+    arm_y = side * (found[4] - side * lateral)
+    arm_z = -(found[5] + position[1] + radius)
+    normal = (-side * np.sin(found[1]), np.cos(found[1]))
+    axis = yawed_wheel.wheel_axis(angles[0], yaw)
+    return found, yawed_wheel.forward_shift(axis, normal, arm_y, arm_z), arm_y, arm_z, yaw, turn
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -183,11 +201,14 @@ def wheel_contact(
     rolling_speed,
     radius_deviation,
     radius_deviation_rate,
+    rail_curvature,
     rows,
     work,
     result,
 ):
     """Force and moment of one contact zone on the wheel.
+
+    Axes: x along the rail abreast of the wheel's centre.
 
     Parameters
     ----------
@@ -199,6 +220,7 @@ def wheel_contact(
     rotation : (x, y, z) in rad/s of the wheel, its spin included (forward rolling: y > 0)
     rolling_speed : m/s, the reference of the creepages
     radius_deviation, radius_deviation_rate : m and m/s, out-of-roundness at the contact
+    rail_curvature : 1/m, of the rail in plan, to the left positive
     rows, work, result : from `contact_workspace`; `result` receives the RESULTS numbers whose
         indices are the names above (STATUS, NORMAL_FORCE, ...)
 
@@ -207,31 +229,36 @@ def wheel_contact(
     force_x, force_y, force_z in N on the wheel, moment_x, moment_y, moment_z in N m about the
     wheel centre.
     """
-    found, arm_x, arm_y, arm_z = contact_point(
-        table, side, position, angles, radius_deviation, rows
+    found, arm_x, arm_y, arm_z, yaw, turn = contact_point(
+        table, side, position, angles, radius_deviation, rail_curvature, rows
     )
     penetration, angle = found[0], found[1]
     sine, cosine = side * np.sin(angle), np.cos(angle)
     # Wheel's material at the contact; n = (0, -sine, cosine), t = (0, cosine, sine).
-    v_x = velocity[0] + rotation[1] * arm_z - rotation[2] * arm_y
-    v_y = velocity[1] + rotation[2] * arm_x - rotation[0] * arm_z
-    v_z = velocity[2] + rotation[0] * arm_y - rotation[1] * arm_x
+    roll_rate, spin_rate = yawed_wheel.turned(turn, rotation[0], rotation[1])
+    v_x, v_y = yawed_wheel.turned(turn, velocity[0], velocity[1])
+    v_x += spin_rate * arm_z - rotation[2] * arm_y
+    v_y += rotation[2] * arm_x - roll_rate * arm_z
+    v_z = velocity[2] + roll_rate * arm_y - spin_rate * arm_x
     v_t = cosine * v_y + sine * v_z
     v_n = cosine * v_z - sine * v_y
-    curvature_longitudinal = np.cos(angle) / (table.wheel_radius + found[3])
-    elastic, a, b = hertz.hertz_ellipse(
-        law.hertz_table, curvature_longitudinal, found[6], law.modulus, penetration
+    axis, radius = yawed_wheel.wheel_axis(angles[0], yaw), table.wheel_radius + found[3]
+    along, mixed, across = yawed_wheel.relative_curvatures(
+        axis, (-sine, cosine), radius, found[8], found[6], rail_curvature
+    )
+    elastic, a, b, shear = hertz.turned_ellipse(
+        law.hertz_table, along, mixed, across, law.modulus, penetration
     )
     approach = cosine * radius_deviation_rate - v_n
     normal = hertz.damped_normal_force(elastic, approach, law.damping_time)
-    spin = cosine * rotation[2] - sine * rotation[1]
+    spin = cosine * rotation[2] - sine * spin_rate
     slip = np.sqrt(v_x * v_x + v_t * v_t)
     friction = friction_coefficient(slip, law.friction[0], law.friction[1], law.friction[2])
     nu_x, nu_y, phi = v_x / rolling_speed, v_t / rolling_speed, spin / rolling_speed
     force_x = force_t = moment_n = 0.0
     if normal > 0.0:
         force_x, force_t, moment_n = tangential_forces(
-            law, a, b, normal, friction, nu_x, nu_y, phi, work
+            law, a, b, normal, friction, nu_x, nu_y, phi, work, shear
         )
     status = CONTACT if normal > 0.0 else NO_CONTACT
     if found[7] != 0 or not np.isfinite(normal + force_x + force_t):
@@ -250,19 +277,19 @@ def wheel_contact(
     result[SEMI_AXIS_LATERAL] = b
     result[FRICTION] = friction
     result[SLIP_VELOCITY] = slip
-    result[ROLLING_RADIUS] = table.wheel_radius + found[3]
+    result[ROLLING_RADIUS] = radius
     result[WHEEL_POSITION] = found[2]
     result[RAIL_POSITION] = found[4]
     result[FORWARD_SHIFT] = arm_x
     result[CURVATURE_LATERAL] = found[6]
     result[LATERAL_VELOCITY] = v_t
+    result[SHEAR] = shear
+    result[WHEEL_LEAD] = yawed_wheel.lead_on_wheel(angles[0], yaw, arm_x, arm_y, arm_z)
     f_y = cosine * force_t - sine * normal
     f_z = sine * force_t + cosine * normal
-    return (
-        force_x,
-        f_y,
-        f_z,
-        arm_y * f_z - arm_z * f_y,
-        arm_z * force_x - arm_x * f_z - sine * moment_n,
-        arm_x * f_y - arm_y * force_x + cosine * moment_n,
-    )
+    m_x = arm_y * f_z - arm_z * f_y
+    m_y = arm_z * force_x - arm_x * f_z - sine * moment_n
+    m_z = arm_x * f_y - arm_y * force_x + cosine * moment_n
+    force_x, f_y = yawed_wheel.turned(-turn, force_x, f_y)
+    m_x, m_y = yawed_wheel.turned(-turn, m_x, m_y)
+    return force_x, f_y, f_z, m_x, m_y, m_z

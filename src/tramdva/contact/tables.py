@@ -13,8 +13,12 @@ from tramdva.contact.geometry import ContactTable
 if TYPE_CHECKING:
     from tramdva.contact.parameters import ContactGeometry, RailProfile, WheelProfile
 
-# Range of the contact tables: m of lateral shift, rad of roll and yaw.
+# Range of the contact tables: m of lateral shift, rad of roll; the yaw that `yaw_nodes` are for.
 SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
+# Contact tables serve curves sharper than the line's by this factor of the radius.
+SHARPEST = 0.8
+SPLIT_ANGLES = 7  # yaw angles at which jumps of the contact are looked for
+_VIBRATION = 2e-3  # rad of yaw beside the steady one
 
 
 def parametric_wheel(wheel: WheelProfile) -> profiles.Profile:
@@ -39,12 +43,30 @@ def parametric_rail(rail: RailProfile) -> profiles.Profile:
 
 
 TABLE_FIELDS = ContactTable._fields
-ZONES = ("tread", "flange")
+ZONES = ("tread", "flange", "flank")
 
 
 def zone_names(count: int) -> list[str]:
     """Names of the zones of a profile, from the tread to the flange."""
     return [ZONES[k] if k < len(ZONES) else f"zone_{k + 1}" for k in range(count)]
+
+
+def yaw_reach(radius: float, half_wheelbase: float, half_distance: float) -> float:
+    """Yaw angle in rad of a wheel against its rail up to which a line needs contact tables.
+
+    Parameters
+    ----------
+    radius : m, of the line's curve; half_wheelbase, half_distance : m, of the bogie
+
+    Notes
+    -----
+    In the sharpest curve that the tables serve: the angle of the chord, the bogie's yaw in the play
+    of its flanges, the turn of the rail at the wheel that a yawed axle puts ahead, and some more
+    for vibrations.
+    """
+    sharpest = SHARPEST * radius
+    attack = half_wheelbase / sharpest + 0.5 * SHIFT_RANGE / half_wheelbase
+    return attack * (1.0 + half_distance / sharpest) + _VIBRATION
 
 
 def zone_tables(
@@ -54,12 +76,16 @@ def zone_tables(
     yaw_nodes: int = 24,
     wheel: profiles.Profile | None = None,
     rail: profiles.Profile | None = None,
+    yaw_limit: float = YAW_RANGE,
 ) -> tuple:
     """Contact tables of the zones of the profiles: the given ones, else those of the parameters.
 
-    `shift_step` in m and the number of nodes over the yaw angle: a conformal flange root, whose
-    locus is an arc of few mm that shrinks with the yaw angle, needs fine ones.
+    `shift_step` in m and the number of nodes over a yaw angle of 0.045 rad: a conformal flange
+    root, whose locus is an arc of few mm that shrinks with the yaw angle, needs fine ones. Tables
+    that reach another `yaw_limit` (rad) keep the distance of the nodes. Zones are split wherever
+    contact jumps at some yaw angle, as from root to flank of a wheel that is much yawed.
     """
+    nodes = 1 + int(np.ceil((yaw_nodes - 1) * (np.tan(yaw_limit) / np.tan(YAW_RANGE)) ** 2))
     position = contact_geometry.rail.lateral_position
     return geometry.contact_tables(
         wheel or parametric_wheel(contact_geometry.wheel),
@@ -67,10 +93,11 @@ def zone_tables(
         wheel_radius,
         shift_range=(-position - SHIFT_RANGE, -position + SHIFT_RANGE),
         roll_limit=ROLL_RANGE,
-        yaw_limit=YAW_RANGE,
+        yaw_limit=yaw_limit,
         gap_scale=contact_geometry.gap_scale,
         shift_step=shift_step,
-        yaw_nodes=yaw_nodes,
+        yaw_nodes=nodes,
+        split_yaw=tuple(np.linspace(0.0, yaw_limit, SPLIT_ANGLES)),
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from tramdva.bogie.absorber_ports import PortModes, Ports, port_modes, ports, receptances
 from tramdva.bogie.curving import Equilibrium, System
-from tramdva.bogie.rough_wheels import rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.tram import BogieLine
 from tramdva.evolution.tendency import Wearing, evolution_tendency, wear_rows, wear_sensitivity
 

@@ -125,7 +125,7 @@ def patch_width(bogie: RoughBogie) -> np.ndarray:
 class WearRows(NamedTuple):
     """Wear response as a linear function of the vehicle's motion.
 
-    local : (f, 4, 10) complex, per local variables of the wheel
+    local : (f, 4, 11) complex, per local variables of the wheel
     direct : (f, 4) complex, by the radius deviation itself
     source : (f, 4, zones) complex, deviations at the contacts per unit wave
     """
@@ -135,7 +135,7 @@ class WearRows(NamedTuple):
     source: np.ndarray
 
     def output(self, wheels: Sequence[int]) -> np.ndarray:
-        """Wear of some wheels per local variables (f, wheels, 40) of all contacts."""
+        """Wear of some wheels per local variables (f, wheels, 44) of all contacts."""
         count, places, own = self.local.shape
         out = np.zeros((count, len(wheels), places, own), complex)
         for row, wheel in enumerate(wheels):
@@ -169,7 +169,7 @@ def wear_rows(
     def wear_by(sensitivity: np.ndarray) -> np.ndarray:
         """Wear (f, 4, zones, k) from derivatives (4, zones, results, k) of the contacts."""
         steady = np.einsum("wzck,wzc->wzk", sensitivity[:, :, WEAR_INPUTS], wear.gradient)
-        return steady - passing[..., None] * sensitivity[:, :, patch.FORWARD_SHIFT]
+        return steady - passing[..., None] * sensitivity[:, :, patch.WHEEL_LEAD]
 
     deviation = wear_by(bogie.sensitivity.deviation)
     direct = deviation[..., 0] + 1j * turn[:, None, None] * deviation[..., 1]

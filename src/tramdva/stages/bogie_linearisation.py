@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.bogie.rough_wheels import rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.stored import variables
 from tramdva.bogie.tram import changed, run_through
 from tramdva.stages.bogie_sections import quiet_bogie_line

@@ -31,6 +31,7 @@ HISTORIES = {
     "semi_axis_longitudinal": patch.SEMI_AXIS_LONGITUDINAL,
     "semi_axis_lateral": patch.SEMI_AXIS_LATERAL,
     "forward_shift": patch.FORWARD_SHIFT,
+    "wheel_lead": patch.WHEEL_LEAD,
 }
 
 

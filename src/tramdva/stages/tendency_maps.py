@@ -7,7 +7,8 @@ import numpy as np
 
 from tramdva.bogie.conditions import State, as_configured, reached
 from tramdva.bogie.curving import oscillations
-from tramdva.bogie.rough_wheels import RoughBogie, rough_bogie
+from tramdva.bogie.rough_vehicle import rough_bogie
+from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.tram import absorber as absorber_of
 from tramdva.bogie.tram import run_through
 from tramdva.evolution.any_absorber import any_absorber

@@ -9,7 +9,7 @@ from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
 from tramdva.wear.chart import CHART, WearChart
-from tramdva.wear.passages import ContactHistory, passages
+from tramdva.wear.passages import ContactHistory, passages, wear_orders
 from tramdva.wheelset import model
 
 # Only the types matter: the results are thrown away.
@@ -22,9 +22,10 @@ def compile_kernels() -> None:
     with np.errstate(all="ignore"):
         _wheelset()
         _bifurcation()
-        contacts = _contacts()
+        for zones in (2, 3):
+            contacts = _contacts(zones)
+            _bogie(contacts)
         _wear(contacts.law)
-        _bogie(contacts)
 
 
 def _wheelset() -> None:
@@ -44,7 +45,7 @@ def _wheelset() -> None:
 
 
 def _bifurcation() -> None:
-    """Two Hopf points of x'' - (p + q) x' + x = 0 and one corrector step on an orbit near them."""
+    """Two Hopf points of x'' - (p + q) x' + x = 0 and an orbit near them: its mesh, a step."""
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
     system = DynamicalSystem(
         rhs=lambda states, p: states @ turn.T + (p[0] + p[1]) * states,
@@ -57,11 +58,13 @@ def _bifurcation() -> None:
     steps = StepControl(0.1, 0.1, 0.1, max_points=2)
     hopf.hopf_curve(system, point, ("p", "q"), window, steps, direction=1, component=0)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
-    curve.correct(curve.predict(curve.start(point, 2, 4), 0.1))
+    orbit = curve.start(point, 2, 4)
+    curve.prepare(orbit)
+    curve.correct(curve.predict(orbit, 0.1))
 
 
-def _contacts() -> wheel_forces.Contacts:
-    """Four wheels, with tread and flange, on the coarsest tables and patches that there can be."""
+def _contacts(zones: int) -> wheel_forces.Contacts:
+    """Four wheels with a number of zones, on the coarsest tables and patches that there can be."""
     zone, *_ = geometry.contact_tables(
         profiles.tram_wheel(), profiles.grooved_rail(), 0.3, shift_range=(0.0, 1e-4),
         roll_limit=1e-3, yaw_limit=1e-3, yaw_nodes=2,
@@ -70,36 +73,37 @@ def _contacts() -> wheel_forces.Contacts:
         np.ones(4), np.array([1, 1, 2, 2]), np.ones(4), 0.0, 0.0, 1.0, 1.0
     )
     law = patch.contact_law(0.3, 0.4, 0.1, cells_along=2, strips=2)
-    return wheel_forces.Contacts((zone, zone), law, places)
+    return wheel_forces.Contacts(zones * (zone,), law, places)
 
 
 def _wear(law: patch.ContactLaw) -> None:
     grid, numbers = law.grid, dict.fromkeys(WearChart._fields, 1.0)
     chart = WearChart(**numbers | {"method": CHART})
     moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
-    passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    found = passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
+    wear_orders(found.area, np.zeros(1), 1)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)
 
 
 def _bogie(contacts: wheel_forces.Contacts) -> None:
     """One step of a vehicle with a single mode."""
-    curvatures, local = np.zeros(3), np.zeros(40)
+    curvatures, local = np.zeros(3), np.zeros(44)
     wheel_forces.contact_forces(contacts, curvatures, local)
     wheel_forces.contact_jacobian(contacts, curvatures, local)
     wheel_forces.radius_sensitivity(contacts, curvatures, local)
     modal = integration.ModalContacts(
-        np.zeros((2, 40)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 40))
+        np.zeros((2, 44)), np.zeros((24, 2)), local, np.zeros(24), np.zeros((24, 44))
     )
     passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
     zones = len(contacts.tables)
     round_wheels = integration.Excitation(
-        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 40)), np.zeros((2, 24)),
+        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 44)), np.zeros((2, 24)),
         np.zeros(2),
     )  # fmt: skip
     columns = np.array(integration.RECORDED)
     integration.run(
         modal, contacts, passage, round_wheels,
         integration.step_table(np.array([-1.0 + 1.0j]), 1e-3), 1e-3, 1.0, 0, 0.0, np.zeros(2),
-        integration.workspace(contacts), np.empty((1, 40)),
+        integration.workspace(contacts), np.empty((1, 44)),
         np.empty((1, 4, zones, columns.size)), columns, 1,
     )  # fmt: skip

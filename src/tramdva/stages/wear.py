@@ -78,7 +78,7 @@ def _worn_wheel(cfg, simulation, wheel: int, count: int) -> dict[str, Any]:
             *(simulation[name][wheel, zone] for name in ContactHistory._fields)
         )
         found = passages(history, table, shear_modulus, grid, speed, chart)
-        angle = simulation["wheel_angle"] + simulation["forward_shift"][wheel, zone] / radius
+        angle = simulation["wheel_angle"] + simulation["wheel_lead"][wheel, zone] / radius
         orders = orders + wear_orders(found.area, angle, count)
         load = np.maximum(history.normal_force, 0.0)[:, None]
         shares, weight = shares + load * found.shares, weight + load

@@ -36,6 +36,7 @@ VARIABLES = Stage(
                 ("semi_axis_longitudinal", "m", "semi-axis along the rail"),
                 ("semi_axis_lateral", "m", "semi-axis across the rail"),
                 ("forward_shift", "m", "contact ahead of the wheel's centre"),
+                ("wheel_lead", "m", "contact ahead of its circle's lowest point"),
             )
         },
         "transient": real("", "1", "revolutions before the output"),
