@@ -129,9 +129,9 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     >>> found = modes(run.curve, run.equilibrium.state, limits=(50.0, 60.0))
     >>> for name, frequency, damping in zip(found.name, found.frequency, found.damping_ratio):
     ...     if "bending" in name:
-    ...         print(f"{name}: {frequency:.1f} Hz, grows: {damping < 0.0}")
-    second_bending_rear: 53.3 Hz, grows: False
-    second_bending_front: 58.5 Hz, grows: True
+    ...         print(f"{name}: {frequency:.0f} Hz, grows: {damping < 0.0}")
+    second_bending_rear: 53 Hz, grows: False
+    second_bending_front: 58 Hz, grows: True
     """
     shares = np.linspace(0.0, 1.0, curvature_steps + 1)
     tracks = systems(line, None, shares)
