@@ -41,7 +41,13 @@ class BogieLine(NamedTuple):
 
 
 def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
-    """Absorber of the line with a stiffness and damping; None where these are NaN."""
+    """Absorber of the line with other values; None where these are NaN.
+
+    Parameters
+    ----------
+    line : BogieLine
+    c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
+    """
     if np.isnan(c_T):
         return None
     return line.bogie.absorber.model_copy(update={"c_T": float(c_T), "d_T": float(d_T)})
@@ -70,7 +76,7 @@ def contacts_of(line: BogieLine) -> wheel_forces.Contacts:
 
 
 def systems(line: BogieLine, design: BogieAbsorber | None, shares: Iterable[float]) -> list[System]:
-    """The vehicle on tracks with shares of the full curvature and cant."""
+    """The vehicle on tracks with shares (of 1) of the full curvature and cant."""
     vehicle = build_vehicle(
         line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
     )
@@ -151,7 +157,10 @@ def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Ru
 
 
 def transferred(source: System, state: Equilibrium, target: System) -> np.ndarray:
-    """State of one vehicle as start for another: coordinates of the same name are kept."""
+    """State (2 n - 4,) of one vehicle as start for another; m, rad and per s.
+
+    Coordinates of the same name are kept, the others are zero.
+    """
     k, n = source.size, target.size
     out = np.zeros(2 * n + HUBS)
     position = dict(zip(source.vehicle.names[:k], state.state[:k], strict=True))

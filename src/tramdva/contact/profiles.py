@@ -107,7 +107,7 @@ def _arc(s, centre, height, radius, sign):
 
 
 def s1002_wheel() -> Profile:
-    """Wheel profile S1002 (UIC 510-2) in closed form, flange flank up to the tip side."""
+    """Wheel profile S1002 (UIC 510-2) in closed form, flange flank up to the tip side; m."""
     s = np.arange(-55.0, 60.0 + 1e-9, 0.01)
     depth, slope = np.empty_like(s), np.empty_like(s)
     sections = (

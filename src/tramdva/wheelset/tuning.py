@@ -101,7 +101,7 @@ def _optimised(
 
 
 def minimal_spectral_abscissa(values: WheelsetParameters) -> Design:
-    """Absorber of given mass with the smallest largest growth rate of the linearised wheelset."""
+    """Absorber of given mass (kg) with the smallest largest growth rate; N/m and N s/m."""
 
     def growth(candidates: WheelsetParameters) -> Any:
         return growth_rate(candidates, True)
@@ -112,7 +112,7 @@ def minimal_spectral_abscissa(values: WheelsetParameters) -> Design:
 
 
 def minimal_abscissa_damping(values: WheelsetParameters) -> Design:
-    """Damping with the smallest largest growth rate at the given stiffness c_T."""
+    """Damping (N s/m) with the smallest largest growth rate at the given stiffness c_T (N/m)."""
 
     def growth(logarithm: Any) -> np.ndarray:
         return growth_rate(values._replace(d_T=np.exp(logarithm)), True)
