@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tramdva.contact import creep_table, fastsim, kalker, rolling
-from tramdva.creep_force import friction_coefficient
+from tramdva.contact.creep_force import friction_coefficient
 
 LOAD, FRICTION, LIMIT, SHEAR_MODULUS = 35e3, 0.35, 12250.0, 82e9
 RATIO_STEP = 2 * creep_table.LOG_RATIO_END / 14
