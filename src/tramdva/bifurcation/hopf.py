@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tramdva.bifurcation import extended_system
+from tramdva.bifurcation import extended_system, normal_form
 from tramdva.bifurcation.compiled import Evaluation
 from tramdva.bifurcation.continuation import (
     AlgebraicCurve,
@@ -201,7 +201,7 @@ def first_lyapunov_coefficients(
     if not points:
         return np.empty(0)
     evaluation = Evaluation(system)
-    coefficients = extended_system.lyapunov_coefficients(
+    coefficients = normal_form.lyapunov_coefficients(
         evaluation.evaluator,
         np.array([point.state for point in points]),
         np.array([point.vector for point in points]),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tramdva.bifurcation import hopf
-from tramdva.bifurcation.continuation import StepControl
+from tramdva.bifurcation.continuation import StepControl, next_step
 from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
@@ -57,6 +57,7 @@ def _bifurcation() -> None:
     window = {"p": (-1.0, 1.0), "q": (-1.0, 1.0)}
     steps = StepControl(0.1, 0.1, 0.1, max_points=2)
     hopf.hopf_curve(system, point, ("p", "q"), window, steps, direction=1, component=0)
+    next_step(0.1, 1, 1.0, *steps.rule)
     curve = LimitCycleCurve(system, "p", max_iterations=1)
     orbit = curve.start(point, 2, 4)
     curve.prepare(orbit)
