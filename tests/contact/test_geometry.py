@@ -154,7 +154,8 @@ def test_table_against_direct_evaluation(tram_tables, zone):
         errors.append(np.abs([found[0], found[4] - exact[3]]))
     height, position = np.array(errors).T
     assert np.median(height) < 2e-8
-    assert np.percentile(height, 95) < 0.5e-6
+    # Extrapolated heights turn as sharply as those of half the gap scale.
+    assert np.percentile(height, 95) < 0.7e-6
     assert height.max() < 4e-6
     assert np.percentile(position, 95) < 0.1e-3
 

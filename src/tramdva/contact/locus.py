@@ -7,14 +7,15 @@ forward, o outwards (field side), d downwards; yaw gamma > 0 turns the heading o
 flange contact; roll > 0 lowers the outer side, about the profile's origin.
 
 Along the wheel the gap G of the two curves is averaged with the weights
-exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the variance stands for the
-curvature that the patch sees, and the soft minimum of the gap, -epsilon log(integral of the
-weights), makes a smooth height at touch, whose slope in the shift is the mean contact angle.
+exp(-(G - min G) cos(delta) / epsilon) ("quasi-elastic" contact): the mean position stands for the
+centre of the patch, the variance for the curvature that the patch sees, and the soft minimum of the
+gap, -epsilon log(integral of the weights), makes a smooth height at touch, whose slope in the shift
+is the contact angle.
 
 That soft minimum lies (epsilon / 2) log(curvature) off the lowest gap, another amount on tread and
-root. So height and positions are those of epsilon and epsilon / 2, extrapolated to epsilon = 0
-(Richardson): exact where the curvature is constant, of second order in epsilon elsewhere. Between
-two places that touch at once the height rises above the lowest gap by at most 0.19 epsilon.
+root. So the height is that of epsilon and epsilon / 2, extrapolated to epsilon = 0 (Richardson):
+exact where the curvature is constant, of second order in epsilon elsewhere. Between two places that
+touch at once the height rises above the lowest gap by at most 0.19 epsilon.
 `epsilon` belongs to a load: a Hertz pressure whose patch closes a gap h at its rim has the variance
 of epsilon = 2 h / 5.
 """
@@ -160,9 +161,8 @@ def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     for scale in range(2):
         for k in range(1, COLUMNS):
             sums[scale, k] /= sums[scale, TOTAL]
-    mean = 2.0 * sums[1] - sums[0]
-    cosine = sums[0, STEEPNESS]
-    variance = max(sums[0, SQUARE] - sums[0, OFFSET] ** 2, spacing * spacing)
+    mean, cosine = sums[0], sums[0, STEEPNESS]
+    variance = max(mean[SQUARE] - mean[OFFSET] ** 2, spacing * spacing)
     width = np.sqrt(2.0 * np.pi * epsilon / REFERENCE_CURVATURE)
     soft = epsilon / cosine * np.log(sums[0, TOTAL] / width)
     softer = epsilon / sums[1, STEEPNESS] * np.log(sums[1, TOTAL] / (width * np.sqrt(0.5)))
@@ -172,7 +172,7 @@ def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     out[RAIL_POSITION] = shift + centre + mean[OFFSET]
     out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
     out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
-    out[MERIDIAN_CURVATURE] = sums[0, MERIDIAN_CURVATURE]
+    out[MERIDIAN_CURVATURE] = mean[MERIDIAN_CURVATURE]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
