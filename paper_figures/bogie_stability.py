@@ -16,7 +16,6 @@ LOOKS = (
     {"color": "0.55", "linewidth": 2.0},
     {"color": "C2", "linewidth": 1.2, "linestyle": "--"},
 )
-SOUGHT = 30.0  # Hz, oscillations above this count; as in the map
 
 
 def main(*, pdf: str, png: str, code: str, cfg: dict, bogie_modes: str) -> None:
@@ -42,9 +41,8 @@ def draw(modes: dict[str, np.ndarray], operating_B: float, motion: str = "rotati
 
 def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) -> None:
     """Draw the largest growth rate of each absorber over the friction decrease."""
-    sought = modes["frequency"] > SOUGHT
-    growth = np.where(sought, modes["growth_rate"], -np.inf).max(axis=2)
-    if not sought.any():
+    growth = modes["largest_growth_rate"]
+    if np.isnan(growth).all():
         figures.note(axes, "no equilibrium in the curve")
     for row, name in enumerate(modes["absorber"]):
         words = figures.design_name(str(name))

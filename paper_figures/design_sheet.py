@@ -25,6 +25,7 @@ LOOKS = {
     ROBUST: {"color": "black", "linestyle": "-"},
 }
 MARKS = {PAPER: "s", NOMINAL: "^", ROBUST: "o"}
+SHARES = (0.0, 0.05, 0.5, 0.95, 1.0)  # of the drawn cases below: extremes, bar and median
 LEVELS = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0])
 
 
@@ -195,24 +196,22 @@ def draw_distribution(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
 def draw_peaks(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
     """Draw the growth left at each peak, the worse wheel: median, 5 to 95 %, extremes."""
     axes.set_title("growth left at the peaks, worse wheel", fontsize="medium")
-    drawn = tuning["varied"] == "all"
+    places = [design_sheet.place_of(tuning["quantile"], share) for share in SHARES]
     rows, seen = [str(name).replace("_", "\n") for name in tuning["peak"]], False
     for row in range(len(rows)):
         for place, k in enumerate(known(tuning)):
-            values = tuning["peak_factor"][k, :, :, row]
-            worse = np.where(np.isfinite(values), values, -np.inf).max(axis=1)
-            sample = worse[drawn & np.isfinite(worse)]
+            sample = 100 * tuning["worse_peak_factor_quantile"][k, row]
+            configured = 100 * tuning["worse_peak_factor"][k, 0, row]
             x = row + 0.22 * (place - 1)
             colour = LOOKS[k]["color"]
-            if sample.size:
+            if np.isfinite(sample).all():
                 seen = True
-                low, middle, high = 100 * np.quantile(sample, [0.05, 0.5, 0.95])
-                axes.plot([x, x], 100 * sample[[sample.argmin(), sample.argmax()]], color=colour,
-                          linewidth=0.7)  # fmt: skip
+                least, low, middle, high, most = sample[places]
+                axes.plot([x, x], [least, most], color=colour, linewidth=0.7)
                 axes.plot([x, x], [low, high], color=colour, linewidth=3.5, solid_capstyle="butt")
                 axes.plot(x, middle, "_", color="white", markersize=6, markeredgewidth=1.4)
-            if np.isfinite(worse[0]):
-                axes.plot(x, 100 * worse[0], MARKS[k], color="white", markeredgecolor=colour)
+            if np.isfinite(configured):
+                axes.plot(x, configured, MARKS[k], color="white", markeredgecolor=colour)
     if not seen:
         figures.nothing(axes, "no peak without absorbers")
         return

@@ -102,11 +102,11 @@ def wheelset_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     growth = packed_arrays.pack(found["map_growth_rate"], differences=(1, 2, 3), **GROWTH)
     note = f"No steady response: the wheelset vibrates by itself at B = {quiet:g} s/m as well."
     data = {
-        **grid.data(shown),
+        **grid.data(),
         **verdicts(found["instability"], WHEELSET, cfg["creep_force"]["B"]),
         "notes": ["", note],
         "note": np.where(np.isfinite(peak), 0, 1).tolist(),
-        "rows": wheelset_rows(found, shown),
+        "rows": wheelset_rows(found),
         "curves": [{"plot": "wheelset_response", "array": array}],
         "images": [
             {"plot": "wheelset_stability", "array": growth, "finer": FINER, "end": GROWTH_END}
@@ -117,15 +117,15 @@ def wheelset_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     return Part("wheelset", title, "best stop: lowest receptance", data, shown_plots)
 
 
-def wheelset_rows(found: dict[str, np.ndarray], shown: np.ndarray) -> list[dict]:
-    """Rows of the table beside the sliders; no reduction where the wheelset is unstable."""
+def wheelset_rows(found: dict[str, np.ndarray]) -> list[dict]:
+    """Rows of the table beside the sliders."""
     none = found["none_peak_receptance"] / MM_PER_KN
     return [
         row_of(found, "growth_rate", "growth rate", "1/s", "{:+.2f}"),
         row_of(found, "leading_frequency", "its frequency", "Hz", "{:.1f}"),
         row("largest receptance", "mm/kN", "{:.3f}", found["peak_receptance"] / MM_PER_KN, none),
         row_of(found, "peak_frequency", "its frequency", "Hz", "{:.1f}"),
-        row("reduction", "times", "{:.2f}", none / shown, np.nan),
+        row("reduction", "times", "{:.2f}", found["reduction"], np.nan),
     ]
 
 
@@ -188,7 +188,7 @@ def response(grid: Grid, found: dict[str, np.ndarray]) -> figure:
     plot = canvas("frequency (Hz)", "receptance (mm/kN)", 260, y_axis_type="log")
     none = found["none_receptance_amplitude"] / MM_PER_KN
     designs = found["receptance_amplitude"] / MM_PER_KN
-    three_curves(plot, found["frequency"], designs[grid.own], none, "top_right")
+    three_curves(plot, found["frequency"], designs[tuple(grid.own)], none, "top_right")
     known = np.concatenate([values[np.isfinite(values)] for values in (designs, none)])
     ends = (known.min() / 1.2, known.max() * 1.2) if known.size else (0.01, 1.0)
     plot.y_range = Range1d(*map(float, ends))
@@ -203,13 +203,12 @@ def bogie_part(cfg: dict, found: dict[str, np.ndarray]) -> Part:
     limits = "{min:g} to {max:g} Hz".format(**cfg["study"]["design_band"])
     stable = found["self_excitation"] == "stable"
     shown = np.where(stable[..., None], found["band_factor"], np.nan)
-    worst = shown[..., found["band_status"] == "found"].max(axis=-1, initial=-np.inf)
-    worst = np.where(np.isfinite(worst), worst, np.nan)
+    worst = found["worst_band_factor"]
     quiet = cfg["forced_excitation"]["B"]
     note = f"No steady wear: no equilibrium, or the bogie vibrates at B = {quiet:g} s/m as well."
     relative, none = relative_tendency(found)
     data = {
-        **grid.data(worst),
+        **grid.data(),
         **verdicts(found["self_excitation"], BOGIE, cfg["creep_force"]["B"]),
         "notes": ["", note],
         "note": np.where(found["quiet_self_excitation"] == "stable", 0, 1).tolist(),
@@ -284,7 +283,7 @@ def words(names: np.ndarray) -> list[str]:
 
 def relative_tendency(found: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Tendencies with and without absorbers over the largest without of each wheel."""
-    size = np.abs(np.nan_to_num(found["none_tendency"])).max(axis=1)
+    size = found["largest_tendency"]
     scale = np.where(size > 0.0, size, 1.0)[:, None]
     return found["tendency"] / scale, found["none_tendency"] / scale
 
@@ -293,7 +292,7 @@ def tendency(grid: Grid, found: dict, relative: np.ndarray, none: np.ndarray, ba
     """Evolution tendency of one wheel with this design, the line's and none."""
     plot = canvas("frequency (Hz)", "evolution tendency (relative)", 280)
     plot.add_layout(BoxAnnotation(left=band["min"], right=band["max"], **SHADE))
-    three_curves(plot, found["frequency"], relative[grid.own], none, "bottom_left")
+    three_curves(plot, found["frequency"], relative[tuple(grid.own)], none, "bottom_left")
     plot.add_layout(Span(location=0, dimension="width", line_color="#8c959f", level="underlay"))
     known = [values[np.isfinite(values)] for values in (relative, none)]
     ends = np.concatenate([np.array([-0.1, 0.1]), *known])

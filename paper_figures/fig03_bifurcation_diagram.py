@@ -180,7 +180,7 @@ def no_cycles(hopf: dict[str, np.ndarray], cycles: dict[str, np.ndarray]) -> str
 
 def scale_in_mm(axes: Axes, cycles: dict[str, np.ndarray]) -> None:
     """Add a scale of the distance from the equilibrium (y_R0 hardly depends on c_A)."""
-    y_R0 = cycles["equilibrium_y_R"].mean()
+    y_R0 = float(cycles["mean_equilibrium_y_R"])
     scale = axes.secondary_yaxis(
         "right",
         functions=(lambda y: (y - 1) * y_R0 / MILLI, lambda mm: 1 + mm * MILLI / y_R0),

@@ -119,9 +119,8 @@ def lower(tuning: dict[str, np.ndarray], row: int) -> str:
 def label_peaks(axes: Axes, response: dict[str, np.ndarray], tuning: dict[str, np.ndarray]) -> None:
     """Write frequencies at the peaks without absorber and the reduction by the line's absorber."""
     offset = {"textcoords": "offset points", "va": "center"}
-    curve = normalised(response, 0)
-    for row in np.flatnonzero((curve[1:-1] > curve[:-2]) & (curve[1:-1] > curve[2:])) + 1:
-        place = response["frequency"][row], curve[row]
+    heights = response["peak_receptance"] / response["y_R_equilibrium"] * KILO
+    for place in zip(response["peak_frequency"], heights, strict=True):
         axes.annotate(f"{place[0]:.0f} Hz", place, (5, 0), **offset)
     receptance = tuning["peak_receptance"][0] / response["y_R_equilibrium"] * KILO
     if np.isfinite(receptance):

@@ -82,9 +82,8 @@ def enlarge(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
 def label_peaks(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     """Write frequency of the peaks without absorber and the factor of the absorbers."""
     none = list(tendency["absorber"]).index("none")
-    scale = np.nanmax(np.abs(tendency["evolution_tendency"][none, row]))
     for k, _ in enumerate(tendency["peak"]):
-        height = tendency["peak_tendency"][none, row, k] / scale
+        height = tendency["peak_tendency_normalised"][none, row, k]
         if not height > 0.03:
             continue
         words = f"{tendency['peak_frequency'][none, row, k]:.0f}"

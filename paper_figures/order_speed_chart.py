@@ -33,7 +33,7 @@ def draw(maps: dict[str, np.ndarray], cfg: dict) -> Figure:
     none = absorbers.index("none")
     others = [k for k in range(len(absorbers)) if k != none] or [none]
     for row, wheel in enumerate(wheels):
-        scale = 1e3 * np.nanmax(np.abs(maps["speed_tendency"][none, row]))
+        scale = 1e3 * float(maps["largest_speed_tendency"][row]) or 1.0
         norm = SymLogNorm(LINEAR * scale, vmin=-scale, vmax=scale)
         for axes, k in zip(panels[row], (none, others[0]), strict=False):
             image = draw_map(axes, maps, "speed", k, row, norm)

@@ -33,9 +33,7 @@ def main(*, table: str, page: str, code: str, line: str, evolution_tendency: str
 def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
     """Rows by wheel, peak and absorber as texts."""
     rows = []
-    none = list(tendency["absorber"]).index("none")
     for w, wheel in enumerate(map(str, tendency["wheel"])):
-        largest = np.nanmax(np.abs(tendency["evolution_tendency"][none, w]))
         for p, peak in enumerate(map(str, tendency["peak"])):
             known = PAPER.get((peak, wheel.partition("_")[2]), ("", ""))
             for a, absorber in enumerate(map(str, tendency["absorber"])):
@@ -46,7 +44,7 @@ def peaks(tendency: dict[str, np.ndarray]) -> list[list[str]]:
                         peak.replace("_", " "),
                         figures.design_name(absorber),
                         number(tendency["peak_frequency"][place], "{:.1f}"),
-                        number(tendency["peak_tendency"][place] / largest, "{:.3f}"),
+                        number(tendency["peak_tendency_normalised"][place], "{:.3f}"),
                         number(tendency["peak_factor"][place], "{:.2f}"),
                         number(tendency["peak_order_factor"][place], "{:.2f}"),
                         *(known if absorber == "paper" else (known[0], "")),

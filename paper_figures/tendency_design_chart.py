@@ -24,20 +24,17 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, tendency_maps: str) -> Non
 
 def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rotation") -> Figure:
     """Draw a panel per wheel, and one of the wheel with the larger factor."""
-    charts = [
-        *zip(
-            (str(wheel).replace("_", " ") for wheel in maps["wheel"]),
-            maps["map_factor"],
-            strict=True,
-        )
-    ]
+    best = zip(maps["best_c_T"], maps["best_d_T"], maps["best_factor"], strict=True)
+    words = [str(wheel).replace("_", " ") for wheel in maps["wheel"]]
+    charts = list(zip(words, maps["map_factor"], best, strict=True))
     if len(charts) > 1:
-        charts.append(("worse of the wheels", maps["map_worst_factor"]))
+        compromise = maps["compromise_c_T"], maps["compromise_d_T"], maps["compromise_factor"]
+        charts.append(("worse of the wheels", maps["map_worst_factor"], compromise))
     figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
     panels = figure.subplots(1, len(charts), squeeze=False, sharey=True)[0]
     unit, stiffness_label, damping_label = figures.ABSORBER_AXES[motion]
-    for axes, name, (words, factor) in zip(panels, "abcde", charts, strict=False):
-        image = draw_map(axes, maps, factor, unit)
+    for axes, name, (words, factor, low) in zip(panels, "abcde", charts, strict=False):
+        image = draw_map(axes, maps, factor, low, unit)
         figures.letter(axes, name)
         axes.set_title(words, fontsize="medium")
         axes.set_xlabel(stiffness_label)
@@ -47,8 +44,14 @@ def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rot
     return figure
 
 
-def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray, unit: float):
-    """Draw the factor over stiffness and damping with the line's absorbers as marks."""
+def draw_map(
+    axes: Axes,
+    maps: dict[str, np.ndarray],
+    factor: np.ndarray,
+    best: tuple[float, float, float],
+    unit: float,
+):
+    """Draw the factor over stiffness and damping; marks: the line's absorbers and the best."""
     stiffness = maps["map_c_T"] / unit
     image = axes.contourf(
         stiffness, maps["map_d_T"], factor, LEVELS, cmap=figures.SPREAD, extend="both"
@@ -61,15 +64,12 @@ def draw_map(axes: Axes, maps: dict[str, np.ndarray], factor: np.ndarray, unit: 
         axes.plot(*place, "s", markerfacecolor="white", markeredgecolor="black")
         words = figures.design_name(name)
         axes.annotate(words, place, (5, 4), textcoords="offset points", color="white")
-    low = np.unravel_index(np.argmin(factor), factor.shape)
-    axes.plot(stiffness[low[1]], maps["map_d_T"][low[0]], "o", color="white", markersize=3)
-    axes.annotate(
-        f"best: {factor[low]:.2f}",
-        (stiffness[low[1]], maps["map_d_T"][low[0]]),
-        (5, 2),
-        textcoords="offset points",
-        color="white",
-    )
+    c_T, d_T, smallest = best
+    if np.isfinite(smallest):
+        place = c_T / unit, d_T
+        axes.plot(*place, "o", color="white", markersize=3)
+        words = f"best: {smallest:.2f}"
+        axes.annotate(words, place, (5, 2), textcoords="offset points", color="white")
     return image
 
 

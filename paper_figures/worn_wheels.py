@@ -1,5 +1,6 @@
 """Wheels out of round and their wear: the fastest growing order of a band, and all orders."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,27 +19,26 @@ SIZE = 0.14  # of the polar axis: half height of the drawn wave
 def main(
     *, pdf: str, png: str, code: str, cfg: dict, evolution_tendency: str, wear: list[str]
 ) -> None:
-    """Draw the wheels; of the files of wear, those of the order that is shown are read."""
-    tendency, band = results.read(evolution_tendency), cfg["study"]["design_band"]
-    none = list(tendency["absorber"]).index("none")
-    inside = (tendency["frequency"] >= band["min"]) & (tendency["frequency"] <= band["max"])
-    growing = np.nan_to_num(tendency["evolution_tendency"][none], nan=-np.inf)
-    growing = np.where(inside, growing, -np.inf) if inside.any() else growing
-    best = [int(np.argmax(of_wheel)) for of_wheel in growing]
-    count = tendency["order"].size
-    worn = [results.read(wear[none * count + k]) for k in best]
+    """Draw the wheels, each worn by its fastest growing order without absorbers."""
+    tendency = results.read(evolution_tendency)
+    bare = (part for part in map(results.read, wear) if part["absorber"] == "none")
+    by_order = {float(part["order"]): part for part in bare}
+    worn = [by_order.get(order) for order in tendency["fastest_order"].tolist()]
     with figures.style(STYLE):
         figures.save(draw(tendency, worn), pdf, png, f"Wear around the wheels: {cfg['label']}")
 
 
-def draw(tendency: dict[str, np.ndarray], worn: list[dict[str, np.ndarray]]) -> Figure:
+def draw(tendency: dict[str, np.ndarray], worn: Sequence[dict[str, np.ndarray] | None]) -> Figure:
     """Draw a row per wheel: polar plot of its fastest growing order, response of all orders."""
     wheels = tendency["wheel"]
     figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 72 * len(wheels))
     grid = figure.add_gridspec(len(wheels), 2, width_ratios=[4, 6])
     for row, wheel in enumerate(wheels):
         polar = figure.add_subplot(grid[row, 0], projection="polar")
-        draw_wheel(polar, worn[row], row)
+        if worn[row] is None:
+            figures.nothing(polar, "no order ran steadily")
+        else:
+            draw_wheel(polar, worn[row], row)
         spectrum = figure.add_subplot(grid[row, 1])
         draw_orders(spectrum, tendency, row)
         polar.set_title(f"{str(wheel).replace('_', ' ')} wheel, {polar.get_title()}")
@@ -49,17 +49,18 @@ def draw_wheel(axes: Axes, worn: dict[str, np.ndarray], row: int) -> None:
     """Draw radius deviation and varying part of the wear around the wheel, each to its scale."""
     angle = np.append(worn["angle"], 2.0 * np.pi)
     deviation, depth = worn["radius_deviation"][row], worn["wear_depth"][row]
-    varying = depth - depth.mean()
-    for values, words, look in (
-        (deviation, f"radius deviation, {np.abs(deviation).max() / MICRO:.2g} µm", {"color": "C1"}),
+    largest, variation = worn["largest_radius_deviation"][row], worn["wear_depth_variation"][row]
+    for values, size, words, colour in (
+        (deviation, largest, f"radius deviation, {largest / MICRO:.2g} µm", "C1"),
         (
-            varying,
-            f"wear beyond its mean, ±{1e3 * np.abs(varying).max() / MICRO:.2g} nm per revolution",
-            {"color": "C0"},
+            depth - worn["mean_wear_depth"][row],
+            variation,
+            f"wear beyond its mean, ±{1e3 * variation / MICRO:.2g} nm per revolution",
+            "C0",
         ),
     ):
-        wave = np.append(values, values[0]) / np.abs(values).max()
-        axes.plot(angle, 1.0 + SIZE * wave, linewidth=0.9, label=words, **look)
+        wave = np.append(values, values[0]) / size
+        axes.plot(angle, 1.0 + SIZE * wave, linewidth=0.9, label=words, color=colour)
     axes.set(ylim=(0.0, 1.25), yticks=[])
     axes.set_title(f"order {int(worn['order'])}, {float(worn['frequency']):.1f} Hz")
     axes.set_xticklabels([])

@@ -10,9 +10,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
+from tramdva.evolution.growing_orders import growing_orders
 from tramdva.report import design_sheet, design_sheet_page, figures
 from tramdva.report.design_sheet import NOMINAL, PAPER, ROBUST
+from tramdva.robustness.spread import QUANTILES
+from tramdva.robustness.spread import spread as spread_of
 from tramdva.variables.registry import STAGES
+from tramdva.variables.shared import CASE_STATUS
 
 ROOT = Path(__file__).resolve().parents[2]
 KINDS = {"real": float, "flag": "U20", "truth": bool, "text": "U30"}
@@ -31,7 +35,8 @@ def tuning() -> dict[str, np.ndarray]:
     varied = ["none", *ends, *["all"] * 30]
     cases = len(varied)
     lengths = {"case": cases, "range": 11, "wheel": 2, "friction": 2, "design": 4, "axis": 2,
-               "end": 2, "map_c_T": 5, "map_d_T": 5, "rubber_end": 4, "peak": 2}  # fmt: skip
+               "end": 2, "map_c_T": 5, "map_d_T": 5, "rubber_end": 4, "peak": 2,
+               "outcome": len(CASE_STATUS), "quantile": len(QUANTILES)}  # fmt: skip
     values = {
         name: np.zeros([lengths[d] for d in variable.dimensions], KINDS[variable.kind])
         for name, variable in STAGES["robust_tuning"].variables.items()
@@ -51,6 +56,7 @@ def tuning() -> dict[str, np.ndarray]:
         "tuned_frequency": 46.9 * missing,
         "damping_ratio": 0.25 * missing,
         "added_mass": 40.0 * missing,
+        "added_weight": 392.4 * missing,
         "unsprung_mass": np.array(1000.0),
         "tolerance": np.array(
             [np.full((2, 2), np.nan)] * 3 + [np.array([[2.3e5, 3e5], [197.0, np.nan]])]
@@ -76,7 +82,7 @@ def tuning() -> dict[str, np.ndarray]:
         "load_order": np.full((4, cases), 25.9),
     }
     values["growth_rate"][1:] = -5.0
-    return values
+    return values | spread_of(values, CASE_STATUS)
 
 
 def without(values: dict, status: str) -> dict:
@@ -94,7 +100,7 @@ def without(values: dict, status: str) -> dict:
     if status == "no_equilibrium":
         values["case_status"][:] = "not_converged"
         values["growth_rate"][:] = np.nan
-    return values
+    return values | spread_of(values, CASE_STATUS)
 
 
 def modes(status: str = "converged", growth: float = 0.3) -> dict[str, np.ndarray]:
@@ -110,13 +116,14 @@ def modes(status: str = "converged", growth: float = 0.3) -> dict[str, np.ndarra
 def maps(sign: float = 1.0) -> dict[str, np.ndarray]:
     frequency, speed = np.linspace(2.0, 150.0, 297), np.array([3.0, 4.0])
     bump = 1e-3 * np.exp(-(((frequency - 55.0) / 4.0) ** 2)) - 1e-4
-    return {
+    values = {
         "absorber": np.array(["none", "paper"]),
         "frequency": frequency,
         "speed": speed,
         "speed_status": np.array([["converged", "converged"], ["converged", "wheel_lifted"]]),
         "speed_tendency": np.tile(bump if sign > 0 else -np.abs(bump), (2, 2, 2, 1)),
     }
+    return values | growing_orders(values, wheel_radius=0.3)
 
 
 def content(cfg, values, critical: float = 0.68, **others) -> design_sheet.Sheet:

@@ -15,7 +15,7 @@ from PIL import Image
 from tramdva import results
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
-from tramdva.stages import wheelset_designs
+from tramdva.stages import bogie_designs, wheelset_designs
 from tramdva.stages.axes import design_axis
 from tramdva.variables.registry import STAGES
 
@@ -36,7 +36,7 @@ def wheelset():
     assert 0 < np.count_nonzero(unstable) < unstable.size
     for name in ("receptance_amplitude", "peak_receptance", "peak_frequency"):
         found[name][unstable] = np.nan  # as if they vibrated without steep friction too
-    return found | {"forced_instability": found["instability"]}
+    return found | {"forced_instability": found["instability"]} | wheelset_designs.comparison(found)
 
 
 def made_up_bogie(wheels=WHEELS, c_T_points=7, stable_below=4e5):
@@ -53,7 +53,7 @@ def made_up_bogie(wheels=WHEELS, c_T_points=7, stable_below=4e5):
     near = (frequency >= 45.0) & (frequency <= 65.0)
     kind = np.where(stable, "stable", "self_excited")
     quiet = np.where(np.arange(c_T.size) == c_T.size - 1, "self_excited", "stable")
-    return {
+    values = {
         "d_T": d_T, "c_T": c_T, "m_T": 2.0, "own_d_T": 300.0, "own_c_T": 1.74e5,
         "wheel": np.array(wheels), "frequency": frequency, "order": frequency / 2.122,
         "growth_rate": growth, "leading_frequency": np.full(growth.shape, 54.7),
@@ -65,6 +65,7 @@ def made_up_bogie(wheels=WHEELS, c_T_points=7, stable_below=4e5):
         "band_status": np.full(len(wheels), "found"),
         "band_factor": tendency[..., near].max(-1) / none[:, near].max(-1),
     }  # fmt: skip
+    return values | bogie_designs.comparison(values)
 
 
 def made_page(folder: Path, wheelset: dict, bogie: dict, label: str = HOSTILE) -> Path:

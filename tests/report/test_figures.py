@@ -70,6 +70,7 @@ def equilibria(stable: bool) -> dict[str, np.ndarray]:
         "equilibrium_absorber": np.repeat(["none", "case_1", "soft"], 2),
         "equilibrium_c_A": np.tile([2e7, 3e8], 3),
         "equilibrium_y_R": np.full(6, 1.4995),
+        "mean_equilibrium_y_R": np.array(1.4995),
         "equilibrium_stable": np.full(6, stable),
     }
 
@@ -191,6 +192,8 @@ def frequency_response() -> dict[str, np.ndarray]:
         "frequency": frequency,
         "receptance_amplitude": amplitude,
         "receptance_phase": np.zeros_like(amplitude),
+        "peak_frequency": np.array([48.0]),
+        "peak_receptance": np.array([1.515e-6]),
         "y_R_equilibrium": np.array(1.5),
         "status": np.full(4, "converged"),
     }

@@ -16,6 +16,8 @@ from typing import Any, Protocol
 import numpy as np
 from scipy.optimize import brentq
 
+from tramdva.bifurcation.elimination import jit
+
 logger = logging.getLogger(__name__)
 
 # A walk that approaches its end stops within this share of the initial step before it.
@@ -42,6 +44,17 @@ class Curve(Protocol):
 
     def record(self, point: Any) -> Any:
         """The point as the branch keeps it, without what only the next step needs."""
+
+    def stride(
+        self, point: Any, step: float, control: "StepControl", most: int
+    ) -> tuple[list[Any], Any, float]:
+        """Steps in which nothing happens, in one go, for curves that are faster at that.
+
+        Returns points as the branch keeps them, at most `most`: those that `trace` would reach
+        with steps of the first length without repeating one, without a sign change of a test
+        function and without leaving the window; the last one as the next step should start from
+        it; and the length of that step. No points where the next step is none of these.
+        """
 
 
 @dataclass(frozen=True)
@@ -99,6 +112,16 @@ class StepControl:
     min_cosine: float = 0.9
     comfortable_iterations: int = 3
 
+    @property
+    def rule(self) -> tuple[float, float, float, int]:
+        """The arguments of `next_step` that stay."""
+        return (
+            float(self.smallest),
+            float(self.largest),
+            float(self.min_cosine),
+            int(self.comfortable_iterations),
+        )
+
 
 def trace(
     curve: Curve,
@@ -134,6 +157,18 @@ def trace(
     tests = curve.test_functions(start)
     branch = Branch(points=[start], tests=[tests])
     while len(branch.points) < control.max_points:
+        passed, point, step = curve.stride(
+            point, step, control, control.max_points - len(branch.points)
+        )
+        for new in passed:
+            tests = curve.test_functions(new)
+            branch.points.append(new)
+            branch.tests.append(tests)
+            branch.ended = stop(new) or ""
+            if branch.ended:
+                return branch
+        if len(branch.points) == control.max_points:
+            break
         new, iterations = curve.correct(curve.predict(point, step))
         cosine = -1.0 if new is None else curve.turning(point, new)
         if cosine < control.min_cosine:
@@ -166,20 +201,22 @@ def trace(
         if reason is not None:
             branch.ended = reason
             return branch
-        step = _next_step(step, iterations, cosine, control)
+        step = next_step(step, iterations, cosine, *control.rule)
         point = curve.prepare(new)
         tests = new_tests
     branch.ended = "max_points"
     return branch
 
 
-def _next_step(step: float, iterations: int, cosine: float, control: StepControl) -> float:
-    comfortable = cosine > 1.0 - 0.3 * (1.0 - control.min_cosine)
-    if iterations <= control.comfortable_iterations and comfortable:
+@jit
+def next_step(step, iterations, cosine, smallest, largest, min_cosine, comfortable_iterations):
+    """Length of the step after one of given iterations and turn, see `StepControl`."""
+    comfortable = cosine > 1.0 - 0.3 * (1.0 - min_cosine)
+    if iterations <= comfortable_iterations and comfortable:
         step *= 1.5
-    elif iterations >= 2 * control.comfortable_iterations:
+    elif iterations >= 2 * comfortable_iterations:
         step *= 0.6
-    return min(max(step, control.smallest), control.largest)
+    return min(max(step, smallest), largest)
 
 
 def _locate(
@@ -311,6 +348,12 @@ class AlgebraicCurve:
     def record(self, point: CurvePoint) -> CurvePoint:
         """The point without factors."""
         return point if point.factors is None else replace(point, factors=None)
+
+    def stride(
+        self, point: CurvePoint, step: float, control: StepControl, most: int
+    ) -> tuple[list[CurvePoint], CurvePoint, float]:
+        """No step: here each takes the same time alone."""
+        return [], point, step
 
 
 def sign_changes(

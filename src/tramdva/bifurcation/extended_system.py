@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bifurcation.compiled import STEP, Evaluator, jacobian_matrices, right_hand_sides
+from tramdva.bifurcation.continuation import next_step
 from tramdva.bifurcation.elimination import factor, inner_jit, jit, largest_magnitude, substitute
 
 # A step with an old matrix must shrink the residual by this factor, else Newton begins anew.
@@ -148,6 +149,67 @@ def solve(unknowns, z, tolerance, max_iterations):
         if size <= tolerance:
             break
     return z, size
+
+
+class Walk(NamedTuple):
+    """How to walk along a curve of Hopf points: StepControl.rule, corrector, window.
+
+    Attributes
+    ----------
+    rule : (float, float, float, int)
+        Smallest and largest step, smallest cosine of the turn, comfortable iterations.
+    tolerance : float
+        Largest component of the residual.
+    max_iterations : int
+        Newton iterations.
+    window : (2, 2) array
+        Lowest and highest value of each of the two parameters.
+    """
+
+    rule: tuple[float, float, float, int]
+    tolerance: float
+    max_iterations: int
+    window: np.ndarray
+
+
+@jit
+def stride(unknowns, z, tangent, lu, pivots, step, walk, most):
+    """Steps from a point of the curve until something happens, at most `most`.
+
+    It ends before a step that has to be repeated, leaves the window, or changes the sign of the
+    frequency or of the tangent in the last parameter.
+
+    Returns
+    -------
+    tuple
+        Points (k, N), tangents (k, N), residuals (k,), factors of the last one, next step.
+    """
+    N, frequency = z.size, z.size - 3
+    points, tangents, residuals = np.empty((most, N)), np.empty((most, N)), np.empty(most)
+    k = 0
+    while k < most:
+        predicted = z + step * tangent
+        size, iterations, new, direction, matrix, order = correct(
+            unknowns, predicted, tangent, walk.tolerance, walk.max_iterations, lu, pivots
+        )
+        cosine = 0.0
+        for i in range(N):
+            cosine += tangent[i] * direction[i]
+        inside = True
+        for i in range(2):
+            inside &= walk.window[i, 0] <= new[N - 2 + i] <= walk.window[i, 1]
+        event = new[frequency] * z[frequency] < 0.0 or direction[N - 1] * tangent[N - 1] < 0.0
+        if not (size <= walk.tolerance and cosine >= walk.rule[2] and inside) or event:
+            break
+        z, tangent, lu, pivots = new, direction, matrix, order
+        for i in range(N):
+            points[k, i], tangents[k, i] = z[i], tangent[i]
+        residuals[k] = size
+        k += 1
+        step = next_step(
+            step, iterations, cosine, walk.rule[0], walk.rule[1], walk.rule[2], walk.rule[3]
+        )
+    return points[:k], tangents[:k], residuals[:k], lu, pivots, step
 
 
 @jit

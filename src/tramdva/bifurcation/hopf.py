@@ -217,9 +217,26 @@ def first_lyapunov_coefficients(
 class _HopfCurve(AlgebraicCurve):
     """Curve of the extended system with two free parameters, by its compiled corrector."""
 
-    def __init__(self, extended: _ExtendedSystem, tolerance: float) -> None:
+    def __init__(self, extended: _ExtendedSystem, tolerance: float, window: np.ndarray) -> None:
         super().__init__(None, None, _tests_of(extended.n), tolerance)
-        self._extended = extended
+        self._extended, self._window = extended, window
+
+    def stride(
+        self, point: CurvePoint, step: float, control: StepControl, most: int
+    ) -> tuple[list[CurvePoint], CurvePoint, float]:
+        """All steps until something happens in one compiled call."""
+        lu, pivots = point.factors or _NO_FACTORS
+        walk = extended_system.Walk(
+            control.rule, self._tolerance, self._max_iterations, self._window
+        )
+        points, tangents, residuals, lu, pivots, step = extended_system.stride(
+            self._extended.unknowns, point.z, point.tangent, lu, pivots, float(step), walk, most
+        )
+        self._extended.evaluation.check()
+        passed = list(map(CurvePoint, points, tangents, residuals.tolist()))
+        if passed:
+            point = replace(passed[-1], factors=(lu, pivots))
+        return passed, point, step
 
     def correct(self, predicted: CurvePoint) -> tuple[CurvePoint | None, int]:
         """As in `AlgebraicCurve`, with the matrix of the last point first."""
@@ -319,15 +336,18 @@ def hopf_curve(
         hopf = extended.unpack(point.z, point.residual)
         return first_lyapunov_coefficient(system, hopf, component)
 
-    curve = _HopfCurve(extended, tolerance)
+    window = np.array([bounds[name] for name in free], float)
+    curve = _HopfCurve(extended, float(tolerance), window)
     first = curve.start(extended.pack(start), direction * np.eye(3 * extended.n + 3)[-1])
     if first is None:
         return HopfCurve([], np.empty(0), [], "no_convergence")
-    windows = [(extended.n * 3 + 1 + i, *bounds[name]) for i, name in enumerate(free)]
+    limits = window.tolist()
     travelled = [0.0, first.z]
 
     def leaves(point: CurvePoint) -> str | None:
-        if any(not low <= point.z[i] <= high for i, low, high in windows):
+        if not all(
+            low <= value <= high for value, (low, high) in zip(point.z[-2:], limits, strict=True)
+        ):
             return "window"
         step = _distance(point.z, travelled[1])
         travelled[:] = [travelled[0] + step, point.z]

@@ -129,6 +129,12 @@ class LimitCycleCurve:
         """The orbit without its factorised matrix (half a megabyte each)."""
         return replace(point, linearisation=None)
 
+    def stride(
+        self, point: LimitCycle, step: float, control: StepControl, most: int
+    ) -> tuple[list[LimitCycle], LimitCycle, float]:
+        """No step: an orbit takes so long that nothing is won."""
+        return [], point, step
+
     # Orbits at given parameters
 
     def at_parameter(self, point: LimitCycle, value: float) -> LimitCycle | None:

@@ -10,13 +10,19 @@ response is a sum of four terms:
 Responses with any number of absorbers for any number of vehicles are then products of arrays.
 """
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tramdva.bogie.curving import Equilibrium, Linearisation, System, linearise, oscillations
 from tramdva.bogie.rough_wheels import RoughBogie, deviation_forces
 from tramdva.bogie.vehicle import absorber_carriers
+
+if TYPE_CHECKING:
+    from tramdva.bogie.parameters import BogieAbsorber
 
 ABSORBERS = 4
 
@@ -43,7 +49,7 @@ def receptances(
     system: System,
     equilibrium: Equilibrium,
     bogie: RoughBogie,
-    absorber,
+    absorber: BogieAbsorber,
     angular_frequency: np.ndarray,
     source: np.ndarray,
 ) -> Receptances:
@@ -77,7 +83,9 @@ def receptances(
     )
 
 
-def dynamic_stiffness(angular_frequency: np.ndarray, inertia: float, c_T, d_T) -> np.ndarray:
+def dynamic_stiffness(
+    angular_frequency: np.ndarray, inertia: float, c_T: ArrayLike, d_T: ArrayLike
+) -> np.ndarray:
     """Force per motion of its place, Z, of absorbers of stiffness c_T and damping d_T (SI)."""
     spring = c_T + 1j * angular_frequency * d_T
     mass = -(angular_frequency**2) * inertia
@@ -147,22 +155,22 @@ class PortModes(NamedTuple):
     output: np.ndarray
     place: np.ndarray
 
-    def at(self, index) -> "PortModes":
+    def at(self, index: ArrayLike) -> PortModes:
         """Part of the leading dimensions."""
         return PortModes(*(values[index] for values in self))
 
-    def response(self, inertia: float, c_T, d_T) -> np.ndarray:
+    def response(self, inertia: float, c_T: ArrayLike, d_T: ArrayLike) -> np.ndarray:
         """Quantities (..., f, k) with absorbers; c_T and d_T broadcast with (..., f)."""
         stiffness = dynamic_stiffness(self.angular_frequency, inertia, c_T, d_T)[..., None]
         force = stiffness / (1.0 + stiffness * self.receptance)
         return self.output_by_wave - (self.output @ force[..., None])[..., 0]
 
-    def carrier(self, inertia: float, c_T, d_T) -> np.ndarray:
+    def carrier(self, inertia: float, c_T: ArrayLike, d_T: ArrayLike) -> np.ndarray:
         """Motion (..., f, 4) of the places with absorbers, rad or m."""
         stiffness = dynamic_stiffness(self.angular_frequency, inertia, c_T, d_T)[..., None]
         return (self.place @ (1.0 / (1.0 + stiffness * self.receptance))[..., None])[..., 0]
 
-    def stroke(self, inertia: float, c_T, d_T) -> np.ndarray:
+    def stroke(self, inertia: float, c_T: ArrayLike, d_T: ArrayLike) -> np.ndarray:
         """Motion (..., f, 4) of the absorbers relative to their places, rad or m."""
         turn = self.angular_frequency
         pull = turn**2 * inertia
@@ -195,13 +203,13 @@ class Motion(NamedTuple):
     place: np.ndarray
     forcing: np.ndarray
 
-    def below(self, frequency: float) -> "Motion":
+    def below(self, frequency: float) -> Motion:
         """Only the modes below a frequency in Hz: what is above is taken as rigid."""
         kept = self.eigenvalue.imag < 2.0 * np.pi * frequency
         return Motion(self.eigenvalue[kept], self.place[:, kept], self.forcing[kept])
 
 
-def motion(system: System, linear: Linearisation, absorber) -> Motion:
+def motion(system: System, linear: Linearisation, absorber: BogieAbsorber) -> Motion:
     """Free motion of a linearised bogie at the places of absorbers (`BogieAbsorber`)."""
     values, vectors = np.linalg.eig(linear.matrix)
     places = np.vstack(absorber_carriers(system.vehicle, absorber))

@@ -9,11 +9,17 @@ References
 J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 and 11.4.
 """
 
+from __future__ import annotations
+
+from collections.abc import Set
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import scipy  # its parts load when they are used: many short jobs need none
+
+if TYPE_CHECKING:
+    from tramdva.bogie.parameters import AxleBridge, BareBogie
 
 X, Y, Z, ROLL, PITCH, YAW = range(6)
 NODE = 6
@@ -33,7 +39,7 @@ class BeamElement(NamedTuple):
 
 
 def skew(r: np.ndarray) -> np.ndarray:
-    """Matrix of the cross product: skew(r) @ w = r x w."""
+    """Matrix (3, 3) of the cross product with r (3,), in its unit: skew(r) @ w = r x w."""
     return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
 
 
@@ -123,7 +129,7 @@ def assemble_beam(position: np.ndarray, elements: list[BeamElement]) -> Beam:
     return Beam(position, stiffness, mass)
 
 
-def carrying_places(bogie) -> set[float]:
+def carrying_places(bogie: BareBogie) -> set[float]:
     """Distances (m) from the track centre at which the beam carries springs or absorbers."""
     places = {bogie.primary.lateral_position}
     absorber = getattr(bogie, "absorber", None)  # a bogie may be configured without
@@ -132,8 +138,10 @@ def carrying_places(bogie) -> set[float]:
     return places
 
 
-def stepped_beam(axle, elements_per_section: int, places: set[float] = frozenset()) -> Beam:
-    """Beam of an axle bridge (`bogie.parameters.AxleBridge`): outer, middle, outer section.
+def stepped_beam(
+    axle: AxleBridge, elements_per_section: int, places: Set[float] = frozenset()
+) -> Beam:
+    """Beam of an axle bridge: outer, middle, outer section; m, kg, N m^2.
 
     Nodes stand at the ends of sections and at `places` (m from the track centre): a force or
     moment between nodes leaves an error of first order in the length of an element.
@@ -230,12 +238,14 @@ def rigid_motions(position: np.ndarray, height: float) -> np.ndarray:
     return np.vstack([rigid_offset(offset) for offset in offsets])
 
 
-def flexible_axle(bogie, cutoff_frequency: float, elements_per_section: int) -> FlexibleAxle:
+def flexible_axle(
+    bogie: BareBogie, cutoff_frequency: float, elements_per_section: int
+) -> FlexibleAxle:
     """Axle bridge with stubs and hubs, reduced to its free modes.
 
     Parameters
     ----------
-    bogie : bogie.parameters.Bogie
+    bogie : its axle bridge, stubs and wheels
     cutoff_frequency : Hz, elastic modes of the free axle bridge up to here are kept
     elements_per_section : beam elements in each of the three sections
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie.curving import Equilibrium, System, equilibrium
-from tramdva.bogie.parameters import BareBogie
+from tramdva.bogie.parameters import BareBogie, BogieAbsorber
 from tramdva.bogie.tram import BogieLine, Running, systems, transferred
 
 
@@ -106,14 +106,16 @@ def _scaled(section, share: float, names):
     return section.model_copy(update={name: share * getattr(section, name) for name in names})
 
 
-def reached(known: State, conditions: Conditions, design=None, halvings: int = 4) -> State:
+def reached(
+    known: State, conditions: Conditions, design: BogieAbsorber | None = None, halvings: int = 4
+) -> State:
     """Equilibrium under other conditions, by way of those between if need be.
 
     Parameters
     ----------
     known : State, where the way begins
     conditions : wanted
-    design : bogie.parameters.BogieAbsorber or None
+    design : absorber of the bogie, or None
     halvings : of the way, at most
     """
     state = _at(known, conditions, design)

@@ -65,11 +65,11 @@ def packed(z: np.ndarray) -> np.ndarray:
 
 
 def modal_state(basis: ModalBasis, state: np.ndarray) -> np.ndarray:
-    """Packed modal state of a state of the vehicle."""
+    """Packed modal state of a state of the vehicle (m, rad and per s)."""
     return packed(basis.to_modal @ (state - basis.state))
 
 
 def vehicle_state(basis: ModalBasis, modal: np.ndarray) -> np.ndarray:
-    """State of the vehicle of a packed modal state."""
+    """State of the vehicle (m, rad and per s) of a packed modal state."""
     m = basis.eigenvalue.size
     return basis.state + (basis.to_state @ (modal[:m] + 1j * modal[m:])).real

@@ -58,7 +58,10 @@ class Modes(NamedTuple):
 
 
 def modes(system: System, state: np.ndarray, limits: tuple[float, float]) -> Modes:
-    """Modes of the vehicle linearised at a state, with frequencies (Hz) within limits."""
+    """Modes of the vehicle linearised at a state, with frequencies (Hz) within limits.
+
+    `tram.run_through` has an example.
+    """
     return modes_of(system, linearise(system, state), limits)
 
 

@@ -1,6 +1,7 @@
 """Simulation of the bogie in its curve with wheels out of round by one order (Peng's step 2)."""
 
 import logging
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -55,14 +56,14 @@ def simulate_wave(
     wheel_radius: float,
     order: float,
     amplitude: complex,
-    wheels,
+    wheels: Collection[str],
     settings: Settings,
 ) -> WaveRun:
     """Simulate wheels with a wave of one order until they run steadily, then keep revolutions.
 
     Parameters
     ----------
-    contacts : running.Contacts
+    contacts : wheel_forces.Contacts
     bogie : RoughBogie
     wheel_radius : m
     order : waves around the wheel; amplitude : complex, R_n in m

@@ -7,6 +7,7 @@ point of its circle by x_c, along the wheel, meets the material point x_c / r_w 
 deviation there is r(V t / r_0 + x_c / r_w).
 """
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -41,8 +42,8 @@ class RoughBogie(NamedTuple):
         return self.results[..., patch.STATUS] == patch.CONTACT
 
 
-def wheel_mask(wheels) -> np.ndarray:
-    """Whether each of `vehicle.WHEELS` is named in `wheels`, as numbers (4,)."""
+def wheel_mask(wheels: Collection[str]) -> np.ndarray:
+    """Whether each of `names.WHEELS` is named in `wheels`, as numbers (4,)."""
     return np.array([float(name in wheels) for name in WHEELS])
 
 
@@ -58,7 +59,12 @@ def rolling_radius(bogie: RoughBogie, wheel_radius: float, speed: float) -> np.n
 
 
 def excitation(
-    bogie: RoughBogie, wheel_radius: float, order: float, speed: float, amplitude: float, wheels
+    bogie: RoughBogie,
+    wheel_radius: float,
+    order: float,
+    speed: float,
+    amplitude: complex,
+    wheels: Collection[str],
 ) -> Excitation:
     """Excitation of the time integration by waves of an order.
 

@@ -1,5 +1,6 @@
 """The bogie of a line on its track: absorber designs, systems, equilibria."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +41,13 @@ class BogieLine(NamedTuple):
 
 
 def absorber(line: BogieLine, c_T: float, d_T: float) -> BogieAbsorber | None:
-    """Absorber of the line with a stiffness and damping; None where these are NaN."""
+    """Absorber of the line with other values; None where these are NaN.
+
+    Parameters
+    ----------
+    line : BogieLine
+    c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
+    """
     if np.isnan(c_T):
         return None
     return line.bogie.absorber.model_copy(update={"c_T": float(c_T), "d_T": float(d_T)})
@@ -68,8 +75,8 @@ def contacts_of(line: BogieLine) -> wheel_forces.Contacts:
     return wheel_forces.Contacts(line.tables, law, places)
 
 
-def systems(line: BogieLine, design: BogieAbsorber | None, shares) -> list[System]:
-    """The vehicle on tracks with shares of the full curvature and cant."""
+def systems(line: BogieLine, design: BogieAbsorber | None, shares: Iterable[float]) -> list[System]:
+    """The vehicle on tracks with shares (of 1) of the full curvature and cant."""
     vehicle = build_vehicle(
         line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
     )
@@ -102,6 +109,35 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     ----------
     line : BogieLine
     curvature_steps : tracks of growing curvature on the way
+
+    Examples
+    --------
+    The bogie of the paper in its curve, with coarse contacts and axles. Its wheels carry all of
+    its weight; the front axle heads outwards, the rear one inwards.
+
+    >>> import numpy as np
+    >>> from tramdva.bogie.curving import angle_of_attack, wheel_loads
+    >>> from tramdva.bogie.published import paper_bogie
+    >>> from tramdva.bogie.tram import run_through
+    >>> line = paper_bogie(shift_step=1e-4, yaw_nodes=10, grid=(6, 6), cutoff_frequency=300.0)
+    >>> run = run_through(line, curvature_steps=4)
+    >>> run.equilibrium.status
+    'converged'
+    >>> print(f"{sum(wheel_loads(run.equilibrium).values()) / 9.81 / 1e3:.1f} t")
+    15.8 t
+    >>> front, rear = np.degrees(angle_of_attack(run.curve, run.equilibrium))
+    >>> print(f"{front:.0f} and {rear:.0f} degrees")
+    2 and -2 degrees
+
+    Without absorbers it vibrates by itself: the second bending of its front axle grows.
+
+    >>> from tramdva.bogie.modes import modes
+    >>> found = modes(run.curve, run.equilibrium.state, limits=(50.0, 60.0))
+    >>> for name, frequency, damping in zip(found.name, found.frequency, found.damping_ratio):
+    ...     if "bending" in name:
+    ...         print(f"{name}: {frequency:.0f} Hz, grows: {damping < 0.0}")
+    second_bending_rear: 53 Hz, grows: False
+    second_bending_front: 58 Hz, grows: True
     """
     shares = np.linspace(0.0, 1.0, curvature_steps + 1)
     tracks = systems(line, None, shares)
@@ -121,7 +157,10 @@ def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Ru
 
 
 def transferred(source: System, state: Equilibrium, target: System) -> np.ndarray:
-    """State of one vehicle as start for another: coordinates of the same name are kept."""
+    """State (2 n - 4,) of one vehicle as start for another; m, rad and per s.
+
+    Coordinates of the same name are kept, the others are zero.
+    """
     k, n = source.size, target.size
     out = np.zeros(2 * n + HUBS)
     position = dict(zip(source.vehicle.names[:k], state.state[:k], strict=True))

@@ -13,13 +13,18 @@ with D from dampers, G from spinning parts, K from springs and from the dampers 
 turn with the wheels.
 """
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from tramdva.bogie import track
 from tramdva.bogie.axle import FlexibleAxle, flexible_axle, rigid_offset
 from tramdva.bogie.names import AXLE_OF_WHEEL, AXLES, FORCES, LOCAL, SIDE, WHEELS
+
+if TYPE_CHECKING:
+    from tramdva.bogie.parameters import BareBogie, BogieAbsorber
 
 
 class Vehicle(NamedTuple):
@@ -131,17 +136,21 @@ class _Assembly:
 
 
 def build_vehicle(
-    bogie, speed: float, cutoff_frequency: float, elements_per_section: int = 4, absorber=None
+    bogie: BareBogie,
+    speed: float,
+    cutoff_frequency: float,
+    elements_per_section: int = 4,
+    absorber: BogieAbsorber | None = None,
 ) -> Vehicle:
     """Assemble the vehicle.
 
     Parameters
     ----------
-    bogie : bogie.parameters.Bogie
+    bogie : masses, rubber and axles
     speed : m/s
     cutoff_frequency : Hz, of the axle's elastic modes
     elements_per_section : finite elements per section of the axle bridge
-    absorber : bogie.parameters.BogieAbsorber or None for the bogie without absorbers
+    absorber : of each end of the axles, or None for the bogie without absorbers
     """
     axle = flexible_axle(bogie, cutoff_frequency, elements_per_section)
     layout = _Layout(axle, 0 if absorber is None else 4)
@@ -269,8 +278,13 @@ def _absorber_carrier(layout: _Layout, absorber, wheel: int) -> tuple[np.ndarray
     return point, direction @ rows
 
 
-def absorber_carriers(vehicle: Vehicle, absorber) -> tuple[np.ndarray, np.ndarray]:
+def absorber_carriers(vehicle: Vehicle, absorber: BogieAbsorber) -> tuple[np.ndarray, np.ndarray]:
     """Where absorbers could be attached to a vehicle without absorbers.
+
+    Parameters
+    ----------
+    vehicle : with n coordinates
+    absorber : its place (m), its direction and how it moves
 
     Returns
     -------
@@ -287,7 +301,7 @@ def absorber_carriers(vehicle: Vehicle, absorber) -> tuple[np.ndarray, np.ndarra
     return np.array(along), np.array(across).reshape(-1, layout.size)
 
 
-def unit_direction(absorber) -> np.ndarray:
+def unit_direction(absorber: BogieAbsorber) -> np.ndarray:
     """Direction (3,) of an absorber's motion."""
     d = np.array([absorber.direction.x, absorber.direction.y, absorber.direction.z])
     return d / np.linalg.norm(d)
@@ -309,12 +323,14 @@ def _add_absorber(sums: _Assembly, layout: _Layout, absorber, wheel: int) -> Non
     sums.damping += absorber.d_T * np.outer(relative, relative)
 
 
-def with_absorber_values(vehicle: Vehicle, before, c_T: float, d_T: float) -> Vehicle:
+def with_absorber_values(
+    vehicle: Vehicle, before: BogieAbsorber, c_T: float, d_T: float
+) -> Vehicle:
     """Return the vehicle with another stiffness and damping of its absorbers.
 
     Parameters
     ----------
-    vehicle : Vehicle built with the absorber `before` (bogie.parameters.BogieAbsorber)
+    vehicle : built with the absorber `before`
     c_T : N m/rad, or N/m of a translating absorber; d_T : N m s/rad, or N s/m
     """
     parts = {key: part for key, part in vehicle.strain.items() if key[0] == "absorber"}

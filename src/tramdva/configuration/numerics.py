@@ -98,7 +98,7 @@ class ContactGeometryNumerics(Section):
     """Nodes of the contact tables."""
 
     shift_step: Real = quantity("distance of the nodes of the lateral shift", "m", 5e-6, 2e-4)
-    yaw_nodes: Whole = quantity("nodes of the yaw angle", "-", 4, 50)
+    yaw_nodes: Whole = quantity("nodes of the yaw angle up to 0.045 rad", "-", 4, 50)
 
 
 class BogieNumerics(Section):

@@ -168,6 +168,24 @@ def fastsim_forces(
     Returns
     -------
     longitudinal_force in N, lateral_force in N, spin_moment in N m.
+
+    Examples
+    --------
+    A round patch under 35 kN: at small creepage the force is ``C22 G a b nu_y`` with Kalker's
+    C22, in full slip ``mu N`` = 12250 N.
+
+    >>> from tramdva.contact import fastsim, kalker
+    >>> a = b = 4.2e-3
+    >>> table = kalker.kalker_table(poisson_ratio=0.27)
+    >>> flexibility = kalker.flexibilities(table, a, b, 8.2e10)
+    >>> grid = fastsim.patch_grid(cells_along=40, strips=40)
+    >>> C_22 = kalker.creep_coefficients(table, a / b)[1]
+    >>> for nu_y in (1e-5, 0.1):
+    ...     _, F_y, _ = fastsim.fastsim_forces(
+    ...         a, b, 35e3, 0.35, 0.0, nu_y, 0.0, flexibility, grid, fastsim.workspace(grid))
+    ...     print(f"{F_y:.0f} N, linear {-C_22 * 8.2e10 * a * b * nu_y:.0f} N")
+    -53 N, linear -53 N
+    -12250 N, linear -534217 N
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if normal_force <= 0.0 or friction_coefficient <= 0.0:

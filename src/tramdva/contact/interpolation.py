@@ -52,7 +52,10 @@ def hermite(table, index, fraction, column):
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def locate(table, first, step, position):
-    """Cell index and fraction of `position`, held at the ends of the table, also for NaN."""
+    """Cell index and fraction of `position` (the unit of `first` and `step`), held at the ends.
+
+    Also for NaN.
+    """
     scaled, last = (position - first) / step, table.shape[0] - 1.000001
     scaled = scaled if scaled > 0.0 else 0.0
     scaled = scaled if scaled < last else last

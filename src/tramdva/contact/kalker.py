@@ -111,7 +111,7 @@ def kalker_table(poisson_ratio: float) -> np.ndarray:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def creep_coefficients(table, semi_axis_ratio):
-    """C11, C22, C23 for the ratio of semi-axes, longitudinal over lateral."""
+    """C11, C22, C23 (dimensionless) for the ratio of semi-axes, longitudinal over lateral."""
     index, fraction = locate(table, -LOG_RATIO_LIMIT, LOG_RATIO_STEP, np.log(semi_axis_ratio))
     return (
         1.0 / hermite(table, index, fraction, 0),

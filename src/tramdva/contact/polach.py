@@ -52,6 +52,23 @@ def polach_forces(
         e_s = (8/3) (b sqrt(a b) / (mu N)) G C23 nu_yc / (1 + 6.3 (1 - exp(-a/b)))
 
     The formula gives no spin moment.
+
+    Examples
+    --------
+    A round patch under 35 kN. Where the wheel hardly creeps, the force is Kalker's linear one,
+    ``C22 G a b nu_y``; where it slides, it is that of Coulomb, ``mu N`` = 12250 N.
+
+    >>> from tramdva.contact.polach import polach_forces
+    >>> patch = {"semi_axis_longitudinal": 4.2e-3, "semi_axis_lateral": 4.2e-3,
+    ...          "normal_force": 35e3, "friction": 0.35, "longitudinal_creepage": 0.0,
+    ...          "spin_creepage": 0.0, "coefficients": (4.2, 3.7, 1.5), "shear_modulus": 8.2e10,
+    ...          "k_A": 1.0, "k_S": 1.0}
+    >>> for nu_y in (1e-6, 1e-3, 0.5):
+    ...     _, F_y, _ = polach_forces(lateral_creepage=nu_y, **patch)
+    ...     print(f"{F_y:.1f} N, linear {-3.7 * 8.2e10 * 4.2e-3**2 * nu_y:.1f} N")
+    -5.4 N, linear -5.4 N
+    -4971.9 N, linear -5352.0 N
+    -12250.0 N, linear -2675988.0 N
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     nu_x, nu_y, phi = longitudinal_creepage, lateral_creepage, spin_creepage

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy  # its parts load when they are used: many short jobs need none
+from numpy.typing import ArrayLike
 
 MM = 1e-3
 SPACING = 0.025e-3
@@ -38,19 +39,26 @@ class Profile:
     depth: np.ndarray
     slope: np.ndarray
 
-    def depth_at(self, position):
+    def depth_at(self, position: ArrayLike) -> np.ndarray:
         """Depth in m at positions in m (cubic Hermite interpolation)."""
         return scipy.interpolate.CubicHermiteSpline(self.position, self.depth, self.slope)(position)
 
-    def slope_at(self, position):
-        """Slope d depth / d position at positions in m."""
+    def slope_at(self, position: ArrayLike) -> np.ndarray:
+        """Slope d depth / d position (m/m) at positions in m."""
         return scipy.interpolate.CubicHermiteSpline(self.position, self.depth, self.slope)(
             position, 1
         )
 
 
-def resample(name: str, kind: str, position, depth, slope, spacing: float = SPACING) -> Profile:
-    """Profile on a uniform grid from points in increasing position (arrays in m)."""
+def resample(
+    name: str,
+    kind: str,
+    position: np.ndarray,
+    depth: np.ndarray,
+    slope: np.ndarray,
+    spacing: float = SPACING,
+) -> Profile:
+    """Profile on a uniform grid from points (k,) of increasing position; m, slopes m/m."""
     keep = np.abs(slope) <= STEEPEST
     first = np.argmax(keep)
     beyond = np.flatnonzero(~keep[first:])
@@ -99,7 +107,7 @@ def _arc(s, centre, height, radius, sign):
 
 
 def s1002_wheel() -> Profile:
-    """Wheel profile S1002 (UIC 510-2) in closed form, flange flank up to the tip side."""
+    """Wheel profile S1002 (UIC 510-2) in closed form, flange flank up to the tip side; m."""
     s = np.arange(-55.0, 60.0 + 1e-9, 0.01)
     depth, slope = np.empty_like(s), np.empty_like(s)
     sections = (

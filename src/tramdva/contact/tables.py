@@ -1,11 +1,17 @@
 """Contact tables of the zones (tread, flange) of a line's profiles."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tramdva.contact import geometry, profiles
 from tramdva.contact.geometry import ContactTable
+
+if TYPE_CHECKING:
+    from tramdva.contact.parameters import ContactGeometry, RailProfile, WheelProfile
 
 # Range of the contact tables: m of lateral shift, rad of roll; the yaw that `yaw_nodes` are for.
 SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
@@ -15,8 +21,8 @@ SPLIT_ANGLES = 7  # yaw angles at which jumps of the contact are looked for
 _VIBRATION = 2e-3  # rad of yaw beside the steady one
 
 
-def parametric_wheel(wheel) -> profiles.Profile:
-    """Wheel profile of the parameters (`contact.parameters.WheelProfile`)."""
+def parametric_wheel(wheel: WheelProfile) -> profiles.Profile:
+    """Wheel profile of the parameters, m."""
     return profiles.tram_wheel(
         wheel.flange_root_radius,
         wheel.flange_angle,
@@ -26,8 +32,8 @@ def parametric_wheel(wheel) -> profiles.Profile:
     )
 
 
-def parametric_rail(rail) -> profiles.Profile:
-    """Rail profile of the parameters (`contact.parameters.RailProfile`)."""
+def parametric_rail(rail: RailProfile) -> profiles.Profile:
+    """Rail profile of the parameters, m."""
     return profiles.grooved_rail(
         rail.crown_radius,
         rail.corner_radius,
@@ -64,7 +70,7 @@ def yaw_reach(radius: float, half_wheelbase: float, half_distance: float) -> flo
 
 
 def zone_tables(
-    contact_geometry,
+    contact_geometry: ContactGeometry,
     wheel_radius: float,
     shift_step: float = 2.5e-5,
     yaw_nodes: int = 24,

@@ -6,10 +6,12 @@ rail when the wheel has turned by theta. A crest is positive:
     r(theta) = sum over orders n of A_n cos(n theta + phi_n) = Re sum R_n exp(i n theta)
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 REFERENCE = 1e-6  # m, of levels
 LARGEST_FILE = 10_000_000  # bytes
@@ -29,7 +31,7 @@ class Measurement(NamedTuple):
     deviation: np.ndarray
 
 
-def radius_deviation(orders, amplitudes, angle: np.ndarray) -> np.ndarray:
+def radius_deviation(orders: ArrayLike, amplitudes: ArrayLike, angle: ArrayLike) -> np.ndarray:
     """Radius deviation in m at wheel angles.
 
     Parameters
@@ -42,7 +44,7 @@ def radius_deviation(orders, amplitudes, angle: np.ndarray) -> np.ndarray:
     return (waves @ np.asarray(amplitudes, complex)).real
 
 
-def order_amplitudes(angle: np.ndarray, values: np.ndarray, orders) -> np.ndarray:
+def order_amplitudes(angle: np.ndarray, values: np.ndarray, orders: Iterable[int]) -> np.ndarray:
     """Complex amplitudes of orders in a periodic function of the wheel angle.
 
     Parameters

@@ -10,10 +10,11 @@ is positive where more is removed in the troughs: the order grows, by ``d ln|R_n
 the polygon drifts around the wheel at arg-rate -Im H_n.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.rough_wheels import RoughBogie, contact_angles, local_response, wheel_mask
@@ -27,18 +28,36 @@ from tramdva.wear.passages import ContactHistory
 WEAR_INPUTS = [getattr(patch, name.upper()) for name in ContactHistory._fields]
 
 
-def excitation_frequency(order, speed: float, wheel_radius: float):
+def excitation_frequency(order: ArrayLike, speed: float, wheel_radius: float) -> np.ndarray:
     """Frequency in Hz of an order, eq. (18): speed in m/s over the wavelength 2 pi R / order."""
     return np.asarray(order, float) * speed / (2.0 * np.pi * wheel_radius)
 
 
-def order_of_frequency(frequency, speed: float, wheel_radius: float):
+def order_of_frequency(frequency: ArrayLike, speed: float, wheel_radius: float) -> np.ndarray:
     """Order, not necessarily whole, of a frequency in Hz: the inverse of eq. (18)."""
     return np.asarray(frequency, float) * 2.0 * np.pi * wheel_radius / speed
 
 
-def evolution_tendency(response) -> np.ndarray:
-    """Evolution tendency (17) of complex wear responses."""
+def evolution_tendency(response: np.ndarray) -> np.ndarray:
+    """Evolution tendency (17), growth per revolution, of complex wear responses (m over m).
+
+    Examples
+    --------
+    What is worn most on the crests of a wave evens it out; what is worn most in its troughs, half
+    a wave away, lets it grow; a quarter of a wave away the wave only wanders.
+
+    >>> import numpy as np
+    >>> from tramdva.evolution.tendency import evolution_tendency, excitation_frequency
+    >>> away = np.array([0.0, 0.25, 0.5])  # waves, from the crest to the most worn place
+    >>> response = 0.02 * np.exp(2j * np.pi * away)
+    >>> [f"{growth:+.3f}" for growth in evolution_tendency(response) + 0.0]
+    ['-0.020', '-0.000', '+0.020']
+
+    Its frequency: 4 m/s over a wave of 1.885 m / 26 around a wheel of 0.3 m radius.
+
+    >>> float(excitation_frequency(26, speed=4.0, wheel_radius=0.3).round(1))
+    55.2
+    """
     return -np.cos(np.angle(response)) * np.abs(response)
 
 
@@ -130,7 +149,7 @@ def wear_rows(
     frequency: np.ndarray,
     speed: float,
     wheel_radius: float,
-    wheels,
+    wheels: Collection[str],
 ) -> WearRows:
     """Wear per revolution of the wheels by waves at frequencies in Hz, arguments as below.
 
@@ -167,7 +186,7 @@ def linear_wear_response(
     frequency: np.ndarray,
     speed: float,
     wheel_radius: float,
-    wheels,
+    wheels: Collection[str],
 ) -> np.ndarray:
     """Wear response (f, 4) of the wheels to waves at frequencies in Hz, per revolution.
 
@@ -183,6 +202,11 @@ def linear_wear_response(
     return np.einsum("fwk,fwk->fw", rows.local, local) + rows.direct
 
 
+def largest(tendency: np.ndarray) -> np.ndarray:
+    """Largest absolute value (...) along the last axis of tendencies (..., k); NaN counts as 0."""
+    return np.abs(np.where(np.isfinite(tendency), tendency, 0.0)).max(axis=-1)
+
+
 def normalised(tendency: np.ndarray, reference: np.ndarray) -> np.ndarray:
     """Tendencies (..., wheel, k) over the largest absolute value of each wheel's reference.
 
@@ -191,12 +215,12 @@ def normalised(tendency: np.ndarray, reference: np.ndarray) -> np.ndarray:
     tendency : (absorbers, wheels, k)
     reference : (wheels, k), of the bogie without absorbers; NaN is passed over
     """
-    size = np.abs(np.where(np.isfinite(reference), reference, 0.0)).max(axis=-1)
+    size = largest(reference)
     return tendency / np.where(size > 0.0, size, np.nan)[:, None]
 
 
 def highest_peak(frequency: np.ndarray, tendency: np.ndarray) -> tuple[float, float]:
-    """Frequency and height of the highest positive local maximum; NaN where there is none.
+    """Frequency (Hz) and height of the highest positive local maximum; NaN where there is none.
 
     The vertex of the parabola through the highest point and its neighbours.
     """

@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+Config = Mapping[str, Any]  # values of the configuration
+Values = Mapping[str, np.ndarray]  # variables of a result file, SI units
 KMH = 3.6
 NONE, PAPER, NOMINAL, ROBUST = range(4)
 NAMES = ("no absorber", "line's absorber", "nominal optimum", "robust optimum")
 SPEEDS_SHOWN = 9
-FAST = 0.1  # of the growth of the fastest order
 DASH = "–"
 RANGES = {
     "friction": ("coefficient of friction μ₀", ""),
@@ -81,11 +82,11 @@ def percent(share: float) -> str:
 
 
 def sheet(
-    cfg: Mapping[str, Any],
-    tuning: Mapping[str, np.ndarray],
-    stability_map: Mapping[str, np.ndarray],
-    bogie_modes: Mapping[str, np.ndarray],
-    tendency_maps: Mapping[str, np.ndarray],
+    cfg: Config,
+    tuning: Values,
+    stability_map: Values,
+    bogie_modes: Values,
+    tendency_maps: Values,
 ) -> Sheet:
     """Contents of the design sheet from the values of the line and the result files."""
     return Sheet(
@@ -97,13 +98,13 @@ def sheet(
         ],
         absorber_table(cfg, tuning),
         peak_table(tuning),
-        order_table(cfg, tendency_maps),
+        order_table(tendency_maps),
         range_table(cfg, tuning),
         notes(cfg, tuning),
     )
 
 
-def self_excitation(cfg, stability_map, modes) -> list[str]:
+def self_excitation(cfg: Config, stability_map: Values, modes: Values) -> list[str]:
     """Tell whether the wheelset and the bogie vibrate by themselves, and from which B on."""
     B = cfg["creep_force"]["B"]
     critical = float(stability_map["baseline_critical_B"])
@@ -123,7 +124,7 @@ def self_excitation(cfg, stability_map, modes) -> list[str]:
     return lines
 
 
-def _bogie(cfg, modes, row: int) -> str:
+def _bogie(cfg: Config, modes: Values, row: int) -> str:
     status = str(modes["status"][row])
     if status != "converged":
         return f"no steady running was found ({status.replace('_', ' ')})."
@@ -140,21 +141,20 @@ def _bogie(cfg, modes, row: int) -> str:
     )
 
 
-def spread(tuning) -> list[str]:
+def spread(tuning: Values) -> list[str]:
     """Tell in how many of the sampled cases the bogie vibrates by itself."""
-    drawn = tuning["varied"] == "all"
-    there = drawn & (tuning["case_status"] == "converged")
-    if not there.any():
+    count = int(tuning["sampled_steady_cases"])
+    if not count:
         return ["None of the sampled conditions has a steady running: nothing can be told of them."]
     parts = [
-        f"{words} {percent(np.mean(tuning['growth_rate'][k, there, 1] >= 0.0))}"
-        for k, words in enumerate(NAMES)
-        if np.isfinite(tuning["growth_rate"][k, there, 1]).any()
+        f"{words} {percent(share)}"
+        for words, share in zip(NAMES, tuning["self_excited_share"], strict=True)
+        if np.isfinite(share)
     ]
-    return [f"Share of {there.sum()} sampled conditions with self-excitation: {', '.join(parts)}."]
+    return [f"Share of {count} sampled conditions with self-excitation: {', '.join(parts)}."]
 
 
-def recommendation(cfg, tuning) -> str:
+def recommendation(cfg: Config, tuning: Values) -> str:
     """Tell the absorber that is recommended, or why there is none."""
     status = str(tuning["status"][ROBUST])
     if status == "no_equilibrium":
@@ -180,14 +180,14 @@ def recommendation(cfg, tuning) -> str:
     return words
 
 
-def unit_names(cfg) -> dict[str, str]:
+def unit_names(cfg: Config) -> dict[str, str]:
     """Units of the absorber: of rotation, or of translation."""
     if cfg["bogie"]["absorber"]["motion"] == "rotation":
         return {"I_T": "kg m²", "c_T": "N m/rad", "d_T": "N m s/rad", "torque": "N m"}
     return {"I_T": "kg", "c_T": "N/m", "d_T": "N s/m", "torque": "N"}
 
 
-def absorber_table(cfg, tuning) -> Table:
+def absorber_table(cfg: Config, tuning: Values) -> Table:
     """Build the table of the absorbers, one column each."""
     units, study = unit_names(cfg), cfg["study"]
     turns = cfg["bogie"]["absorber"]["motion"] == "rotation"
@@ -202,7 +202,6 @@ def absorber_table(cfg, tuning) -> Table:
     def load(name: str, factor: float):
         return lambda k: _load(tuning, name, k, factor)
 
-    axle = 2.0 / float(tuning["unsprung_mass"])
     inertia = "inertia of one" if turns else "mass of one"
     word, unit = ("torque", "mrad") if turns else ("force", "mm")
     rows = [
@@ -219,8 +218,8 @@ def absorber_table(cfg, tuning) -> Table:
         ),
         row("growth left in the worst case", lambda k: _worst(tuning, k)),
         row("growth rate at the line's B (1/s)", lambda k: number(tuning["growth_rate"][k, 0, 1])),
-        row("added unsprung mass per axle (kg)", lambda k: _mass(tuning, k, axle)),
-        row("weight on one mounting (N)", plain("added_mass", cfg["track"]["gravity"])),
+        row("added unsprung mass per axle (kg)", lambda k: _mass(tuning, k)),
+        row("weight on one mounting (N)", plain("added_weight")),
         row(f"stroke ({unit}): as configured, worst", load("stroke_amplitude", 1e3)),
     ]
     if turns:
@@ -254,17 +253,16 @@ def absorber_table(cfg, tuning) -> Table:
     return Table(f"{title} {1e6 * study['wave_amplitude']:g} µm on the wheels)", rows)
 
 
-def _load(tuning, name: str, design: int, factor: float) -> str:
+def _load(tuning: Values, name: str, design: int, factor: float) -> str:
     """Nominal load and, behind a comma, the largest of the cases that count."""
     values = tuning[name][design]
     if not np.isfinite(values).any():
         return DASH
-    counted = values[tuning["counted"] & np.isfinite(values)]
-    worst = counted.max() if counted.size else np.nan
+    worst = tuning[f"worst_{name}"][design]
     return f"{number(values[0] * factor)}, {number(worst * factor)}"
 
 
-def _band(tuning, design: int, axis: int) -> str:
+def _band(tuning: Values, design: int, axis: int) -> str:
     if design == PAPER or not np.isfinite(tuning["c_T"][design]):
         return DASH
     low, high = tuning["tolerance"][design, axis]
@@ -273,19 +271,19 @@ def _band(tuning, design: int, axis: int) -> str:
     return f"{below} to {above}"
 
 
-def _worst(tuning, design: int) -> str:
+def _worst(tuning: Values, design: int) -> str:
     excited = tuning["self_excited_cases"][design]
     if np.isfinite(excited) and excited > 0.0:
-        return f"self-excited in {excited:.0f} of {tuning['counted'].sum()}"
+        return f"self-excited in {excited:.0f} of {tuning['counted_cases']:.0f}"
     return percent(tuning["worst_factor"][design])
 
 
-def _mass(tuning, design: int, share: float) -> str:
-    mass = float(tuning["added_mass"][design])
-    return f"{number(2.0 * mass)} ({percent(mass * share)})" if np.isfinite(mass) else DASH
+def _mass(tuning: Values, design: int) -> str:
+    mass, share = tuning["added_axle_mass"][design], tuning["added_axle_share"][design]
+    return f"{number(mass)} ({percent(share)})" if np.isfinite(mass) else DASH
 
 
-def peak_table(tuning) -> Table:
+def peak_table(tuning: Values) -> Table:
     """Build the table of what is left of each peak, with the robust optimum over the sample too."""
     rows = [
         [
@@ -293,40 +291,27 @@ def peak_table(tuning) -> Table:
             "median", "95 % of them",
         ]
     ]  # fmt: skip
-    drawn = tuning["varied"] == "all"
+    middle, high = (place_of(tuning["quantile"], share) for share in (0.5, 0.95))
     for p, peak in enumerate(map(str, tuning["peak"])):
         for w, wheel in enumerate(map(str, tuning["wheel"])):
-            factor = tuning["peak_factor"][:, :, w, p]
-            sample = factor[ROBUST, drawn]
-            sample = sample[np.isfinite(sample)]
-            middle, high = np.quantile(sample, [0.5, 0.95]) if sample.size else (np.nan, np.nan)
+            factor = tuning["peak_factor"][:, 0, w, p]
+            sample = tuning["peak_factor_quantile"][ROBUST, w, p]
             rows.append(
                 [
                     f"{peak.replace('_', ' ')}, {wheel.replace('_', ' ')}",
                     number(float(tuning["peak_frequency"][0, w, p])),
-                    *(percent(float(factor[k, 0])) for k in (PAPER, NOMINAL, ROBUST)),
-                    percent(float(middle)),
-                    percent(float(high)),
+                    *(percent(float(factor[k])) for k in (PAPER, NOMINAL, ROBUST)),
+                    percent(float(sample[middle])),
+                    percent(float(sample[high])),
                 ]
             )
     title = "Growth left at each peak as configured, and of the robust optimum in the sample"
     return Table(title, rows)
 
 
-def order_growth(
-    frequency: np.ndarray, tendency: np.ndarray, speed: float, radius: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Whole orders within the frequencies, and the largest tendency of each on any wheel.
-
-    Parameters
-    ----------
-    frequency : (f,) Hz; tendency : (wheels, f); speed : m/s; radius : m, of the wheels
-    """
-    per_order = speed / (2.0 * np.pi * radius)
-    first, last = np.ceil(frequency[0] / per_order), np.floor(frequency[-1] / per_order)
-    orders = np.arange(max(first, 1), last + 1)
-    values = np.array([np.interp(orders * per_order, frequency, row) for row in tendency])
-    return orders.astype(int), values.max(axis=0)
+def place_of(coordinate: np.ndarray, value: float) -> int:
+    """Place of a value along a coordinate (k,) that holds it."""
+    return int(np.flatnonzero(coordinate == value)[0])
 
 
 def in_ranges(orders: Sequence[int]) -> str:
@@ -340,43 +325,41 @@ def in_ranges(orders: Sequence[int]) -> str:
     return ", ".join(str(a) if a == b else f"{a} to {b}" for a, b in pieces) or "none"
 
 
-def order_table(cfg, maps) -> Table:
+def order_table(maps: Values) -> Table:
     """Build the table of the orders that grow over the speed."""
-    absorbers = list(map(str, maps["absorber"]))
-    radius, count = cfg["bogie"]["wheel"]["radius"], min(SPEEDS_SHOWN, maps["speed"].size)
+    count = min(SPEEDS_SHOWN, maps["speed"].size)
     rows = [
         ["speed (km/h)", "orders that grow", "fast ones", "fastest", "fast with line's absorber"]
     ]
     for k in np.unique(np.linspace(0, maps["speed"].size - 1, count).round().astype(int)):
-        speed = float(maps["speed"][k])
-        growth = {}
-        for a, name in enumerate(absorbers):
-            if str(maps["speed_status"][a, k]) == "converged":
-                tendency = maps["speed_tendency"][a, :, k]
-                growth[name] = order_growth(maps["frequency"], tendency, speed, radius)
-        rows.append([f"{KMH * speed:.1f}", *_order_cells(growth, speed / (2 * np.pi * radius))])
+        rows.append([f"{KMH * float(maps['speed'][k]):.1f}", *_order_cells(maps, k)])
     low, high = maps["frequency"][[0, -1]]
     title = f"Orders that grow on any wheel, {low:.0f} to {high:.0f} Hz"
-    return Table(f"{title}; fast: at least {percent(FAST)} of the fastest without absorbers", rows)
+    share = percent(float(maps["fast_share"]))
+    return Table(f"{title}; fast: at least {share} of the fastest without absorbers", rows)
 
 
-def _order_cells(growth: Mapping[str, tuple[np.ndarray, np.ndarray]], hertz: float) -> list[str]:
+def _order_cells(maps: Values, speed: int) -> list[str]:
     """Cells of a speed: orders that grow, fast ones, the fastest, fast ones with absorbers."""
-    if "none" not in growth:
+    absorbers, steady = list(map(str, maps["absorber"])), maps["speed_status"][:, speed]
+    none = absorbers.index("none")
+    if str(steady[none]) != "converged":
         return ["no steady running", DASH, DASH, DASH]
-    orders, values = growth["none"]
-    if not (values > 0.0).any():
+    if not maps["order_grows"][none, speed].any():
         return ["none", "none", DASH, "none"]
-    limit, fastest = FAST * values.max(), orders[values.argmax()]
-    cells = [in_ranges(orders[values > 0.0]), in_ranges(orders[values >= limit])]
-    cells.append(f"{fastest} ({fastest * hertz:.0f} Hz)")
-    if "paper" not in growth:
+
+    def orders(which: str, absorber: int) -> str:
+        return in_ranges(maps["order"][maps[which][absorber, speed]].astype(int).tolist())
+
+    cells = [orders("order_grows", none), orders("order_fast", none)]
+    fastest, frequency = maps["fastest_order"][speed], maps["fastest_frequency"][speed]
+    cells.append(f"{fastest:.0f} ({frequency:.0f} Hz)")
+    if "paper" not in absorbers or str(steady[absorbers.index("paper")]) != "converged":
         return [*cells, DASH]
-    orders, values = growth["paper"]
-    return [*cells, in_ranges(orders[values >= limit])]
+    return [*cells, orders("order_fast", absorbers.index("paper"))]
 
 
-def range_table(cfg, tuning) -> Table:
+def range_table(cfg: Config, tuning: Values) -> Table:
     """Build the table of the ranges and of what each alone leaves with the robust optimum."""
     study = cfg["study"]
     own = {
@@ -402,7 +385,7 @@ def range_table(cfg, tuning) -> Table:
     return Table("Ranges, and growth left in the band when one alone is at its end", rows)
 
 
-def left(tuning, design: int, name: str, end: str) -> float:
+def left(tuning: Values, design: int, name: str, end: str) -> float:
     """Factor of a design when one range alone is at its `min` or `max`."""
     if name.startswith("absorber_"):
         ends = list(map(str, tuning["rubber_end"]))
@@ -411,14 +394,12 @@ def left(tuning, design: int, name: str, end: str) -> float:
     return float(tuning["factor"][design, place[0]]) if place.size else np.nan
 
 
-def notes(cfg, tuning) -> list[str]:
+def notes(cfg: Config, tuning: Values) -> list[str]:
     """Tell assumptions, statuses and limits."""
-    status, counts = np.unique(tuning["case_status"], return_counts=True)
-    pairs = zip(status, counts, strict=True)
-    found = ", ".join(f"{n} {str(name).replace('_', ' ')}" for name, n in pairs)
-    there = tuning["case_status"] == "converged"
-    dropped = int((there & ~tuning["counted"]).sum())
-    drawn = int((tuning["varied"] == "all").sum())
+    pairs = sorted(zip(map(str, tuning["outcome"]), tuning["outcome_cases"], strict=True))
+    found = ", ".join(f"{n:.0f} {name.replace('_', ' ')}" for name, n in pairs if n)
+    dropped, drawn = int(tuning["uncounted_cases"]), int(tuning["sampled_cases"])
+    count = tuning["case"].size
     band, study = cfg["study"]["design_band"], cfg["study"]
     turns = cfg["bogie"]["absorber"]["motion"] == "rotation"
     return [
@@ -432,7 +413,7 @@ def notes(cfg, tuning) -> list[str]:
         "in the worst case) and no condition self-excited, when one value alone moves; open: "
         "beyond the range that was searched.",
         f"Conditions that do not count in the worst case, since they vibrate by themselves with "
-        f"every absorber: {dropped} of {len(there)}. A self-excited condition has no factor and no "
+        f"every absorber: {dropped} of {count}. A self-excited condition has no factor and no "
         "load; the share of such conditions is told above. Where only the bogie without absorbers "
         "is self-excited, what grows with them is compared with the line as configured, so that "
         "more than 100 % may be left.",

@@ -13,6 +13,7 @@ import numpy as np
 from bokeh.models import (
     BasicTicker,
     ColorBar,
+    ColorMapper,
     ColumnDataSource,
     FixedTicker,
     LinearColorMapper,
@@ -36,7 +37,8 @@ class Grid:
     Parameters
     ----------
     found : mapping
-        ``c_T``, ``d_T``, ``m_T``, ``own_c_T`` and ``own_d_T`` of a result file, SI.
+        ``c_T``, ``d_T``, ``m_T`` and, each with ``own_`` and ``best_`` before it, ``c_T`` and
+        ``d_T`` of a result file, SI.
     look : mapping
         Divisor and unit of the stiffness ``c`` and of the damping ``d``.
     """
@@ -46,20 +48,14 @@ class Grid:
     ) -> None:
         self.look = look
         self.c_T, self.d_T = found["c_T"] / look["c"][0], found["d_T"] / look["d"][0]
-        self.own = (
-            int(np.argmin(np.abs(found["d_T"] - found["own_d_T"]))),
-            int(np.argmin(np.abs(found["c_T"] - found["own_c_T"]))),
-        )
+        self.own, self.best = (_place(found, which) for which in ("own", "best"))
         inertia = float(found["m_T"])
         self.tuned = np.sqrt(found["c_T"] / inertia) / (2.0 * np.pi)
         critical = 2.0 * np.sqrt(found["c_T"] * inertia)
         self.damping_ratio = found["d_T"][:, None] / critical
 
-    def data(self, aim: np.ndarray) -> dict[str, Any]:
-        """What the sliders need; the best design has the smallest aim, if any is not NaN."""
-        best = None
-        if np.isfinite(aim).any():
-            best = [int(k) for k in np.unravel_index(np.nanargmin(aim), aim.shape)]
+    def data(self) -> dict[str, Any]:
+        """What the sliders need; no best design where there is none."""
         stiffness, damping = self.look["c"][1], self.look["d"][1]
         return {
             "x": self.c_T.tolist(),
@@ -68,8 +64,8 @@ class Grid:
             "tuned": [f"tuned to {value:.1f} Hz" for value in self.tuned],
             "damping": [f"{value:.3g} {damping}" for value in self.d_T],
             "ratio": [[f"damping ratio {v:.3f}" for v in values] for values in self.damping_ratio],
-            "own": list(self.own),
-            "best": best,
+            "own": self.own,
+            "best": self.best,
         }
 
     def edges(self) -> tuple[np.ndarray, np.ndarray]:
@@ -77,12 +73,19 @@ class Grid:
         return tuple(_edges(axis) for axis in (self.c_T, self.d_T))
 
 
+def _place(found: Mapping[str, np.ndarray], which: str) -> list[int] | None:
+    """Row and column of a design of the file."""
+    if np.isnan(found[f"{which}_c_T"]):
+        return None
+    return [int(np.flatnonzero(found[k] == found[f"{which}_{k}"])[0]) for k in ("d_T", "c_T")]
+
+
 def _edges(axis: np.ndarray) -> np.ndarray:
     inner = np.sqrt(axis[1:] * axis[:-1])
     return np.concatenate([[axis[0] ** 2 / inner[0]], inner, [axis[-1] ** 2 / inner[-1]]])
 
 
-def canvas(x: str, y: str, height: int, **options) -> figure:
+def canvas(x: str, y: str, height: int, **options: Any) -> figure:
     """Empty plot that takes the width it is given."""
     plot = figure(
         height=height, sizing_mode="stretch_width", x_axis_label=x, y_axis_label=y,
@@ -116,7 +119,7 @@ def round_values(low: float, high: float) -> list[float]:
     return [value for value in values if low <= value <= high]
 
 
-def cells(plot: figure, grid: Grid, values: np.ndarray, mapper) -> None:
+def cells(plot: figure, grid: Grid, values: np.ndarray, mapper: ColorMapper) -> None:
     """Draw a clickable cell per design, and the marks of the line's and of this design."""
     x, y = grid.edges()
     rows, columns = np.indices(values.shape)

@@ -17,7 +17,11 @@ MISSING = 0xFFFF  # stands for NaN
 
 
 def pack(
-    values: np.ndarray, step: float, differences: Sequence[int], kind: str = "linear", scale=1.0
+    values: np.ndarray,
+    step: float,
+    differences: Sequence[int],
+    kind: str = "linear",
+    scale: float = 1.0,
 ) -> dict[str, Any]:
     """Round an array and write it as a text.
 

@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tramdva.bogie import absorber_ports
 from tramdva.bogie.absorber_ports import PortModes
@@ -66,7 +67,7 @@ class Fleet(NamedTuple):
         modes, frequency = self.modes.at((rows, place)), self.frequency[rows, place]
         return self._replace(modes=modes, frequency=frequency)
 
-    def only(self, rows) -> "Fleet":
+    def only(self, rows: ArrayLike) -> "Fleet":
         """Some of the cases."""
         return Fleet(
             self.case[rows],

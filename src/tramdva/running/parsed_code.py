@@ -176,7 +176,12 @@ def _is_empty_text(node: ast.AST) -> bool:
 
 
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield all statements below a node; expressions, which are far more, are passed over."""
+    """Yield all statements below a node; expressions, which are far more, are passed over.
+
+    So is what checkers of types alone read: it never runs.
+    """
+    if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+        return
     for block in ("body", "orelse", "handlers", "finalbody", "cases"):
         for statement in getattr(node, block, ()):
             yield statement

@@ -29,6 +29,27 @@ def design_axis(limits: Mapping[str, float], points: int, own: float) -> np.ndar
     return axis
 
 
+def best_design(aim: np.ndarray, c_T: np.ndarray, d_T: np.ndarray) -> tuple[float, float, float]:
+    """Design of the smallest aim.
+
+    Parameters
+    ----------
+    aim : (d_T, c_T) array
+        What is to be small, NaN where there is none.
+    c_T, d_T : (k,), (m,) arrays
+        Stiffness and damping of the designs.
+
+    Returns
+    -------
+    c_T, d_T, aim : float
+        NaN where no design has an aim.
+    """
+    if not np.isfinite(aim).any():
+        return np.nan, np.nan, np.nan
+    i, j = np.unravel_index(np.nanargmin(aim), aim.shape)
+    return float(c_T[j]), float(d_T[i]), float(aim[i, j])
+
+
 def axis(limits: Mapping[str, float], points: int) -> np.ndarray:
     """Values (points,) at equal distances between ``min`` and ``max``."""
     return np.linspace(limits["min"], limits["max"], points)

@@ -12,8 +12,8 @@ from tramdva.bogie.absorbers import family_of
 from tramdva.bogie.curving import linearise, oscillations
 from tramdva.bogie.tram import BogieLine, Running, changed, run_through
 from tramdva.evolution.any_absorber import any_absorber
-from tramdva.evolution.tendency import order_of_frequency
-from tramdva.stages.axes import design_axis
+from tramdva.evolution.tendency import largest, order_of_frequency
+from tramdva.stages.axes import best_design, design_axis
 from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
 from tramdva.stages.wheels_out_of_round import wearing
 from tramdva.variables.bogie_designs import VARIABLES
@@ -61,7 +61,7 @@ def compute(
         "designs": excited_quietly["self_excitation"] == "stable",
     }
     track, radius = lines[0].track, lines[0].bogie.wheel.radius
-    return {
+    values = {
         "d_T": d_T,
         "c_T": c_T,
         "m_T": own.I_T,
@@ -74,6 +74,34 @@ def compute(
         **{f"quiet_{name}": excited_quietly[name] for name in ("growth_rate", "self_excitation")},
         **none,
         **_tendencies(cfg, lines[1], quiet, c_T, d_T, frequency, steady),
+    }
+    return values | comparison(values)
+
+
+def comparison(values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Worse wheel and best of the designs; those that vibrate in operation are none.
+
+    Parameters
+    ----------
+    values : mapping
+        The other variables of ``bogie_designs``.
+
+    Returns
+    -------
+    dict
+        ``worst_band_factor`` (d_T, c_T); ``best_c_T`` in N m/rad and ``best_d_T`` in N m s/rad (N/m
+        and N s/m if the absorber translates); ``largest_tendency`` (wheel).
+    """
+    stable = (values["self_excitation"] == "stable")[..., None]
+    known = np.where(stable, values["band_factor"], np.nan)[..., values["band_status"] == "found"]
+    worst = known.max(axis=-1, initial=-np.inf)
+    worst = np.where(np.isfinite(worst), worst, np.nan)
+    c_T, d_T, _ = best_design(worst, values["c_T"], values["d_T"])
+    return {
+        "worst_band_factor": worst,
+        "best_c_T": np.float64(c_T),
+        "best_d_T": np.float64(d_T),
+        "largest_tendency": largest(values["none_tendency"]),
     }
 
 

@@ -35,6 +35,7 @@ def compute(
     decrease = np.linspace(0.0, cfg["study"]["B_max"], cfg["numerics"]["friction_points"])
     table = {}
     critical, operating = np.full(len(runs), np.nan), np.full((len(runs), 2), np.nan)
+    growth = np.full((len(runs), decrease.size), np.nan)
     for i, run in enumerate(runs):
         if run.equilibrium.status != "converged":
             continue
@@ -42,13 +43,14 @@ def compute(
         operating[i] = modal.critical_oscillation(system, state, limits)
         sweep = [modal.at_friction(system, state, B) for B in decrease]
         table |= {(i, j): modal.modes_of(system, step, shown) for j, step in enumerate(sweep)}
-        growth = np.array([modal.critical_of(step, limits).growth_rate for step in sweep])
-        critical[i] = modal.critical_friction_decrease(system, state, limits, decrease, growth)
+        growth[i] = [modal.critical_of(step, limits).growth_rate for step in sweep]
+        critical[i] = modal.critical_friction_decrease(system, state, limits, decrease, growth[i])
     return {
         **{name: curving_equilibrium[name] for name in ("absorber", "m_T", "c_T", "d_T")},
         "status": curving_equilibrium["status"],
         "friction_decrease": decrease,
         **_mode_table(table, len(runs), len(decrease)),
+        "largest_growth_rate": growth,
         "operating_growth_rate": operating[:, 0],
         "operating_frequency": operating[:, 1],
         "critical_friction_decrease": critical,

@@ -12,6 +12,7 @@ from tramdva.evolution.tendency import (
     evolution_tendency,
     excitation_frequency,
     highest_peak,
+    largest,
     linear_wear_response,
     normalised,
     order_of_frequency,
@@ -64,12 +65,15 @@ def compute(
     simulated = _simulated(absorbers, worn)
     # One scale for all curves of a wheel: that of the simulated orders, as in the paper.
     scale = simulated["evolution_tendency"][absorbers.index("none")]
+    peaks = _peaks(cfg, absorbers, axis, linear, frequency, simulated["evolution_tendency"])
     return {
         **_absorbers(linearisations, absorbers),
         "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
         "order": orders,
         "frequency": frequency,
         **simulated,
+        "largest_tendency": largest(scale),
+        "fastest_order": fastest_order(orders, frequency, scale, study["design_band"]),
         "evolution_tendency_normalised": normalised(simulated["evolution_tendency"], scale),
         **_levels(absorbers, worn, simulated["evolution_tendency"], study["revolutions"]),
         "frequency_axis": axis,
@@ -81,8 +85,30 @@ def compute(
         "order_linearised_real": at_orders.real,
         "order_linearised_imag": at_orders.imag,
         "linearised_mean_wear_depth": np.array(worn_mean),
-        **_peaks(cfg, absorbers, axis, linear, frequency, simulated["evolution_tendency"]),
+        **peaks,
+        "peak_tendency_normalised": normalised(peaks["peak_tendency"], scale),
     }
+
+
+def fastest_order(
+    order: np.ndarray, frequency: np.ndarray, tendency: np.ndarray, band: Mapping[str, float]
+) -> np.ndarray:
+    """Order (wheels,) of the largest tendency in a band; of all, where no order lies in it.
+
+    Parameters
+    ----------
+    order, frequency : (k,), the latter in Hz
+    tendency : (wheels, k), NaN where a simulation did not run steadily
+    band : ``min`` and ``max`` in Hz
+
+    Returns
+    -------
+    (wheels,) array, NaN for a wheel without any tendency there
+    """
+    inside = (frequency >= band["min"]) & (frequency <= band["max"])
+    chosen = inside if inside.any() else np.ones(order.size, bool)
+    growing = np.where(np.isfinite(tendency) & chosen, tendency, -np.inf)
+    return np.where(np.isfinite(growing).any(axis=1), order[growing.argmax(axis=1)], np.nan)
 
 
 def _of_absorber(wear: Sequence[Mapping[str, np.ndarray]], name: str) -> list:

@@ -50,13 +50,18 @@ def compute(cfg: Mapping[str, Any], absorber_tuning: Mapping[str, Any]) -> dict[
         logger.warning(
             "without absorber the wheelset is unstable: its response is not a steady state"
         )
+    amplitude = np.abs(receptance)
+    bare = amplitude[0]
+    tops = np.flatnonzero((bare[1:-1] > bare[:-2]) & (bare[1:-1] > bare[2:])) + 1
     return {
         "design": np.append("none", absorber_tuning["design"]),
         **parameters,
         "status": np.append("converged" if stable else "self_excited", absorber_tuning["status"]),
         "frequency": frequency,
-        "receptance_amplitude": np.abs(receptance),
+        "receptance_amplitude": amplitude,
         "receptance_phase": np.angle(receptance),
         "stroke_amplitude": np.array([np.abs(r.stroke) for r in responses]),
+        "peak_frequency": frequency[tops],
+        "peak_receptance": bare[tops],
         "y_R_equilibrium": np.array(equilibrium(values, False).y_R),
     }

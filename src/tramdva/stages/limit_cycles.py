@@ -69,6 +69,7 @@ def compute(cfg: Mapping[str, Any], hopf_points: Mapping[str, Any]) -> dict[str,
         "floquet_multiplier_real": multipliers.real,
         "floquet_multiplier_imag": multipliers.imag,
         **table(VARIABLES, "equilibrium", equilibria),
+        "mean_equilibrium_y_R": np.mean([row["equilibrium_y_R"] for row in equilibria]),
         **table(VARIABLES, "special_point", specials),
         **table(VARIABLES, "branch", ends),
     }

@@ -19,8 +19,10 @@ from tramdva.robustness.criterion import (
     tolerance,
 )
 from tramdva.robustness.sample import absorber_shares, assembled, stored_motion
+from tramdva.robustness.spread import QUANTILES, spread
 from tramdva.variables.arrays import without_numbers
 from tramdva.variables.robust_tuning import VARIABLES
+from tramdva.variables.shared import CASE_STATUS
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -45,7 +47,7 @@ def compute(
 
     Parameters
     ----------
-    cfg : sections ``bogie.absorber``, ``track``, ``bogie.wheel.radius``, ``study``, ``numerics``
+    cfg : ``bogie.absorber``, ``track.gravity``, ``bogie.wheel.radius``, ``study``, ``numerics``
     robustness_sample : variables of all parts
 
     Returns
@@ -69,7 +71,8 @@ def compute(
     }
     whole = fleet(sample, absorber["I_T"])
     if not (whole.case == 0).any():
-        return _without_nominal(cfg, sample, c_T.size, d_T.size) | common
+        values = _without_nominal(cfg, sample, c_T.size, d_T.size) | common
+        return values | spread(values, CASE_STATUS)
     nominal, robust = _criteria(cfg, sample, whole)
     restless = sample["bare_growth_rate"][whole.case, OPERATING] >= 0.0
     suspects = [np.flatnonzero(restless[:1]), np.flatnonzero(restless)]
@@ -103,7 +106,7 @@ def compute(
     for name in ("factor", "peak_factor", *LOADS):
         there = steady.reshape(*steady.shape, *[1] * (values[name].ndim - 2))
         values[name] = np.where(there, values[name], np.nan)
-    return values
+    return values | spread(values, CASE_STATUS)
 
 
 def _criteria(
@@ -175,6 +178,7 @@ def _design_values(cfg, designs: Sequence[Design | None]) -> dict[str, np.ndarra
         "tuned_frequency": np.sqrt(stiffness / inertia) / (2.0 * np.pi),
         "damping_ratio": damping / (2.0 * np.sqrt(stiffness * inertia)),
         "added_mass": mass,
+        "added_weight": mass * cfg["track"]["gravity"],
     }
 
 
@@ -326,6 +330,8 @@ def _without_nominal(cfg, sample, c_points: int, d_points: int) -> dict[str, np.
         "map_d_T": d_points,
         "axis": 2,
         "end": 2,
+        "outcome": len(CASE_STATUS),
+        "quantile": len(QUANTILES),
     }
     missing = (np.nan, np.nan)
     return {

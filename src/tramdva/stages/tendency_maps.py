@@ -12,7 +12,14 @@ from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.tram import absorber as absorber_of
 from tramdva.bogie.tram import run_through
 from tramdva.evolution.any_absorber import any_absorber
-from tramdva.evolution.tendency import evolution_tendency, linear_wear_response, wear_sensitivity
+from tramdva.evolution.growing_orders import growing_orders
+from tramdva.evolution.tendency import (
+    evolution_tendency,
+    largest,
+    linear_wear_response,
+    wear_sensitivity,
+)
+from tramdva.stages.axes import best_design
 from tramdva.stages.bogie_sections import quiet_bogie_line
 from tramdva.stages.wheels_out_of_round import wearing
 from tramdva.variables.tendency_maps import VARIABLES
@@ -52,7 +59,7 @@ def compute(
     inertia, stiffness, damping = np.array([designs[name] for name in study["absorbers"]]).T
     over_speed = _over(cfg, known, designs, "speed", speed, frequency)
     over_radius = _over(cfg, known, designs, "radius", radius, frequency)
-    return {
+    values = {
         "absorber": np.array(study["absorbers"]),
         "m_T": inertia,
         "c_T": stiffness,
@@ -68,6 +75,33 @@ def compute(
         "radius_growth_rate": over_radius["growth_rate"],
         "radius_status": over_radius["status"],
         **_over_absorbers(cfg, known, frequency),
+    }
+    return values | conclusions(values, cfg["bogie"]["wheel"]["radius"])
+
+
+def conclusions(values: Mapping[str, np.ndarray], wheel_radius: float) -> dict[str, np.ndarray]:
+    """Orders that grow over the speed, and the best designs of the maps.
+
+    Parameters
+    ----------
+    values : the other variables of ``tendency_maps``; wheel_radius : m
+
+    Returns
+    -------
+    The variables of ``tendency_maps`` that follow from those given.
+    """
+    none = list(values["absorber"]).index("none")
+    bare = values["speed_tendency"][none]
+    c_T, d_T = values["map_c_T"], values["map_d_T"]
+    best = np.array([best_design(factor, c_T, d_T) for factor in values["map_factor"]]).T
+    compromise = best_design(values["map_worst_factor"], c_T, d_T)
+    return {
+        "largest_speed_tendency": largest(bare.reshape(bare.shape[0], -1)),
+        **growing_orders(values, wheel_radius),
+        **dict(zip(("best_c_T", "best_d_T", "best_factor"), best, strict=True)),
+        **dict(
+            zip(("compromise_c_T", "compromise_d_T", "compromise_factor"), compromise, strict=True)
+        ),
     }
 
 

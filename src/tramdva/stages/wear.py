@@ -42,16 +42,18 @@ def compute(
     worn = [_worn_wheel(cfg, simulation, w, per_turn // 2) for w in range(simulation["wheel"].size)]
     orders = np.array([wheel["orders"] for wheel in worn])
     response = orders[:, order] / amplitude
+    deviation = np.tile(radius_deviation([order], [amplitude], angle), (orders.shape[0], 1))
+    depth = np.array([depth_around(wheel, angle) for wheel in orders])
     return {
         **{
             name: simulation[name] for name in ("absorber", "order", "frequency", "wheel", "status")
         },
         "amplitude": np.float64(abs(amplitude)),
         "angle": angle,
-        "radius_deviation": np.tile(
-            radius_deviation([order], [amplitude], angle), (orders.shape[0], 1)
-        ),
-        "wear_depth": np.array([depth_around(wheel, angle) for wheel in orders]),
+        "radius_deviation": deviation,
+        "largest_radius_deviation": np.abs(deviation).max(axis=1),
+        "wear_depth": depth,
+        "wear_depth_variation": np.abs(depth - depth.mean(axis=1, keepdims=True)).max(axis=1),
         "patch_width": np.array([wheel["width"] for wheel in worn]),
         "mean_wear_depth": orders[:, 0].real,
         "wear_amplitude": np.abs(orders[:, order]),

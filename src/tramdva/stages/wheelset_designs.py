@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.stages.axes import axis, design_axis
+from tramdva.stages.axes import axis, best_design, design_axis
 from tramdva.variables.wheelset_designs import VARIABLES
 from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
 from tramdva.wheelset.response import peak_receptance, response
@@ -44,7 +44,7 @@ def compute(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
     plane = {"c_A": c_A[None, :], "c_R": c_R[:, None]}
     forced_designs = _responses(forced, c_T, d_T, frequency)
     without = _response(forced, False, frequency)
-    return {
+    values = {
         "d_T": d_T,
         "c_T": c_T,
         "m_T": operating.m_T,
@@ -68,6 +68,29 @@ def compute(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
         "none_forced_instability": classify(leading_eigenvalues(forced, False)),
         **{f"none_{name}": value for name, value in without.items()},
         "none_map_growth_rate": growth_rate(operating._replace(**plane), False),
+    }
+    return values | comparison(values)
+
+
+def comparison(values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """What the designs reduce, and the best of them; those that vibrate in operation are none.
+
+    Parameters
+    ----------
+    values : mapping
+        The other variables of ``wheelset_designs``.
+
+    Returns
+    -------
+    dict
+        ``reduction`` (d_T, c_T) of the peak receptance; ``best_c_T`` in N/m, ``best_d_T`` in N s/m.
+    """
+    peak = np.where(values["growth_rate"] < 0.0, values["peak_receptance"], np.nan)
+    c_T, d_T, _ = best_design(peak, values["c_T"], values["d_T"])
+    return {
+        "reduction": values["none_peak_receptance"] / peak,
+        "best_c_T": np.float64(c_T),
+        "best_d_T": np.float64(d_T),
     }
 
 

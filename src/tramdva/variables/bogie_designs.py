@@ -45,5 +45,11 @@ VARIABLES = Stage(
         "band_factor": real(
             "d_T c_T wheel", "1", "largest tendency in this band over that without absorbers"
         ),
+        "worst_band_factor": real(
+            "d_T c_T", "1", "of the wheels, the largest factor, NaN: self-excited in operation"
+        ),
+        "best_c_T": real("", "N m/rad", "stiffness of the least of these factors, NaN: none"),
+        "best_d_T": real("", "N m s/rad", "its damping"),
+        "largest_tendency": real("wheel", "1", "largest absolute tendency without absorbers"),
     },
 )

@@ -16,6 +16,9 @@ VARIABLES = Stage(
         "damping_ratio": real("absorber friction_decrease mode", "1", "damping ratio"),
         "growth_rate": real("absorber friction_decrease mode", "1/s", "growth rate"),
         "mode_name": text("absorber friction_decrease mode", "name by strain energy and axle"),
+        "largest_growth_rate": real(
+            "absorber friction_decrease", "1/s", "largest growth rate of the frequencies that count"
+        ),
         "operating_growth_rate": real("absorber", "1/s", "largest growth rate at the line's B"),
         "operating_frequency": real("absorber", "Hz", "its frequency"),
         "critical_friction_decrease": real(

@@ -24,6 +24,12 @@ VARIABLES = Stage(
                 ("harmonic_distortion", "1", "harmonics of the wear over the order's own"),
             )
         },
+        "largest_tendency": real("wheel", "1", "largest absolute tendency without absorber"),
+        "fastest_order": real(
+            "wheel",
+            "1",
+            "order that grows fastest in the band of design without absorber, NaN: none ran",
+        ),
         "region_changes": truth("absorber wheel order", "whether the wear region changes"),
         "level": real("wheel order", "dB", "level of the radius deviation re 1 um"),
         "level_after": real(
@@ -52,6 +58,9 @@ VARIABLES = Stage(
         "peak": text("peak", "positive peak, by the mode behind it"),
         "peak_frequency": real("absorber wheel peak", "Hz", "frequency of the peak"),
         "peak_tendency": real("absorber wheel peak", "1", "largest tendency near it"),
+        "peak_tendency_normalised": real(
+            "absorber wheel peak", "1", "the same over the largest without absorber"
+        ),
         "peak_order_tendency": real("absorber wheel peak", "1", "the same at whole orders"),
         "peak_factor": real("absorber wheel peak", "1", "tendency over that without absorber"),
         "peak_order_factor": real("absorber wheel peak", "1", "the same at whole orders"),

@@ -18,6 +18,8 @@ VARIABLES = Stage(
         "receptance_amplitude": real("design frequency", "m/N", "amplitude of receptance"),
         "receptance_phase": real("design frequency", "rad", "phase of receptance"),
         "stroke_amplitude": real("design frequency", "m/N", "stroke of the absorber per force"),
+        "peak_frequency": real("peak", "Hz", "frequency of a peak without absorber"),
+        "peak_receptance": real("peak", "m/N", "receptance there"),
         "y_R_equilibrium": real("", "m", "position of the rim in equilibrium"),
     },
 )

@@ -37,6 +37,7 @@ VARIABLES = Stage(
         "equilibrium_absorber": text("equilibrium", "absorber"),
         "equilibrium_c_A": real("equilibrium", "N/m", AXLE_STIFFNESS),
         "equilibrium_y_R": real("equilibrium", "m", "position of the rim"),
+        "mean_equilibrium_y_R": real("", "m", "mean position of the rim in equilibrium"),
         "equilibrium_stable": truth("equilibrium", "whether the equilibrium is stable"),
         "special_kind": flag("special_point", SPECIAL_CYCLES, "kind of special point"),
         "special_absorber": text("special_point", "absorber"),

@@ -48,6 +48,30 @@ VARIABLES = Stage(
         "torque_amplitude": real("design case", "N m", "torque on the mounting (N)"),
         "dissipated_power": real("design case", "W", "mean power that one absorber dissipates"),
         "load_frequency": real("design case", "Hz", "frequency of the largest torque"),
+        "outcome": text("outcome", "status that an equilibrium can have"),
+        "outcome_cases": real("outcome", "1", "cases of this status"),
+        "sampled_cases": real("", "1", "cases drawn from all ranges at once"),
+        "sampled_steady_cases": real("", "1", "those of them that have an equilibrium"),
+        "counted_cases": real("", "1", "cases that count in the worst case"),
+        "uncounted_cases": real("", "1", "cases with an equilibrium that do not count"),
+        "self_excited_share": real(
+            "design", "1", "share of drawn cases with an equilibrium that vibrate by themselves"
+        ),
+        "quantile": real("quantile", "1", "share of drawn cases at or below"),
+        "peak_factor_quantile": real("design wheel peak quantile", "1", "factor of drawn cases"),
+        "worse_peak_factor": real("design case peak", "1", "factor at the peak, worse wheel"),
+        "worse_peak_factor_quantile": real(
+            "design peak quantile", "1", "factor of drawn cases, worse wheel"
+        ),
+        "worst_carrier_amplitude": real(
+            "design", "rad", "largest motion of the place in cases counted (m: translation)"
+        ),
+        "worst_stroke_amplitude": real("design", "rad", "largest motion relative to it"),
+        "worst_torque_amplitude": real("design", "N m", "largest torque on the mounting (N)"),
+        "worst_dissipated_power": real("design", "W", "largest power that one dissipates"),
+        "added_axle_mass": real("design", "kg", "mass of the absorbers of an axle"),
+        "added_axle_share": real("design", "1", "the same over the unsprung mass"),
+        "added_weight": real("design", "N", "weight of one absorber"),
         "load_order": real("design case", "1", "its order, not necessarily whole"),
     },
 )

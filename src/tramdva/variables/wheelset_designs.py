@@ -42,5 +42,10 @@ VARIABLES = Stage(
                 ),
             )
         },
+        "reduction": real(
+            "d_T c_T", "1", "peak receptance without absorber over that with, NaN: self-excited"
+        ),
+        "best_c_T": real("", "N/m", "stiffness of the stable design of lowest peak, NaN: none"),
+        "best_d_T": real("", "N s/m", "its damping"),
     },
 )

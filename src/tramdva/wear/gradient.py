@@ -16,7 +16,13 @@ from tramdva.wear.chart import CHART, CONSTANT, WearChart
 _TINY = 1e-30
 
 
-def worn_area(inputs, flexibility, grid: PatchGrid, rolling_speed: float, chart: WearChart):
+def worn_area(
+    inputs: np.ndarray,
+    flexibility: np.ndarray,
+    grid: PatchGrid,
+    rolling_speed: float,
+    chart: WearChart,
+) -> complex:
     """Cross-section of removed material in m^2 per passage; arguments may be complex.
 
     Parameters

@@ -175,7 +175,7 @@ def largest_growth(values: WheelsetParameters, c_A: np.ndarray) -> float:
 
 
 def critical_point_at(values: WheelsetParameters) -> WheelsetParameters | None:
-    """Critical Hopf point at the d_T of given values, near their c_A and c_T, or None."""
+    """Critical Hopf point at the d_T (N s/m) of given values, near their c_A and c_T, or None."""
     point = critical_hopf.solve_critical_point(
         dynamical_system(values, True), leading_pair_at(values), _FREE
     )

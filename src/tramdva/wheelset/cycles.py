@@ -70,6 +70,27 @@ def limit_cycle_branch(
     -------
     WheelsetBranch
         Special points as (kind, stiffness in N/m).
+
+    Examples
+    --------
+    From the Hopf point on stable cycles grow with the square root of the distance from it: their
+    size squared over that distance is nearly constant.
+
+    >>> from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
+    >>> from tramdva.wheelset.hopf import solve_hopf_point
+    >>> from tramdva.wheelset.published import paper_wheelset
+    >>> wheelset = paper_wheelset(c_A=4.8e7)
+    >>> start = solve_hopf_point(wheelset, False, "c_A")
+    >>> numerics = {"mesh_intervals": 12, "degree": 3, "tolerance": 1e-8, "max_orbits": 4}
+    >>> branch = limit_cycle_branch(start, "c_A", (2e7, 3e8), numerics)
+    >>> unit = 1e6  # N/m, of the scaled stiffness
+    >>> for cycle in branch.cycles[1:]:
+    ...     size = orbit_extremes(cycle, wheelset, False)
+    ...     across = 1e3 * (size.y_R_max - size.y_R_min)
+    ...     away = cycle.parameters[branch.curve.index] - start.values.c_A / unit
+    ...     print(f"{across:.2f} mm, {across**2 / away:.2f} mm^2 per MN/m, {cycle.stable}")
+    0.05 mm, 0.45 mm^2 per MN/m, True
+    0.10 mm, 0.45 mm^2 per MN/m, True
     """
     system = dynamical_system(start.values, start.with_absorber)
     unit = scaling(start.values, start.with_absorber).parameters[system.index(parameter)]

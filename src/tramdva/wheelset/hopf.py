@@ -165,6 +165,21 @@ def hopf_points_along(
     -------
     list of WheelsetHopfPoint
         Oscillatory ones only: a zero growth rate at frequency zero is no Hopf point.
+
+    Examples
+    --------
+    Between its two Hopf points the wheelset without absorber vibrates by itself (figure 3). Both
+    are supercritical: their first Lyapunov coefficients are negative.
+
+    >>> import numpy as np
+    >>> from tramdva.wheelset.hopf import hopf_points_along
+    >>> from tramdva.wheelset.published import paper_wheelset
+    >>> stiffness = np.geomspace(2e7, 3e8, 50)
+    >>> for point in hopf_points_along(paper_wheelset(), False, "c_A", stiffness):
+    ...     print(f"{point.values.c_A / 1e6:.1f} MN/m, {point.frequency:.1f} Hz,",
+    ...           point.first_lyapunov_coefficient < 0.0)
+    47.7 MN/m, 46.5 Hz, True
+    192.1 MN/m, 80.3 Hz, True
     """
     function = growth_along(values, with_absorber, parameter)
     if sampled is None:

@@ -31,6 +31,19 @@ def den_hartog(values: WheelsetParameters) -> Design:
     -----
     With ``mu = m_T / m_A`` and ``omega_n^2 = c_A / m_A``: ``c_T = m_T (omega_n / (1 + mu))^2``,
     ``d_T = 2 m_T omega_n sqrt(3 mu / (8 (1 + mu)^3))``.
+
+    Examples
+    --------
+    For the wheelset of Table 1 this is the stiffness of the absorber in Table 2, 4.3 MN/m; its
+    damping there, 6.85 kN s/m, is larger by the square root of two.
+
+    >>> from tramdva.wheelset.published import paper_wheelset
+    >>> from tramdva.wheelset.tuning import den_hartog
+    >>> design = den_hartog(paper_wheelset())
+    >>> print(f"{design.c_T / 1e6:.2f} MN/m, {design.d_T / 1e3:.2f} kN s/m")
+    4.30 MN/m, 4.84 kN s/m
+    >>> print(f"{2**0.5 * design.d_T / 1e3:.2f} kN s/m")
+    6.85 kN s/m
     """
     mu = values.m_T / values.m_A
     omega_n = np.sqrt(values.c_A / values.m_A)
@@ -88,7 +101,7 @@ def _optimised(
 
 
 def minimal_spectral_abscissa(values: WheelsetParameters) -> Design:
-    """Absorber of given mass with the smallest largest growth rate of the linearised wheelset."""
+    """Absorber of given mass (kg) with the smallest largest growth rate; N/m and N s/m."""
 
     def growth(candidates: WheelsetParameters) -> Any:
         return growth_rate(candidates, True)
@@ -99,7 +112,7 @@ def minimal_spectral_abscissa(values: WheelsetParameters) -> Design:
 
 
 def minimal_abscissa_damping(values: WheelsetParameters) -> Design:
-    """Damping with the smallest largest growth rate at the given stiffness c_T."""
+    """Damping (N s/m) with the smallest largest growth rate at the given stiffness c_T (N/m)."""
 
     def growth(logarithm: Any) -> np.ndarray:
         return growth_rate(values._replace(d_T=np.exp(logarithm)), True)
