@@ -43,8 +43,10 @@ KNOWS = MODEL | AROUND
 AT_THE_ROOT = {"__init__", "quantities", "results"}
 PARAMETERS = {module for module in MODULES if module.endswith(".parameters")}
 READ_MEASUREMENTS = {"contact.measured_profile", "evolution.out_of_roundness"}
+READ_TABLES = {"contact.creep_table"}  # a file beside the code, whose digest the code holds
 TOUCH_THE_DISK = {
     *READ_MEASUREMENTS,
+    *READ_TABLES,
     *(m for m in MODULES if m.split(".")[0] in ("configuration", "running", "record", "results")),
     "report.figures",
     "report.tables",
@@ -61,18 +63,18 @@ BUDGET = {
     "absorber_tuning": 14,
     "frequency_response": 7,
     "contact_geometry": 6,
-    "curving_equilibrium": 22,
-    "bogie_modes": 22,
-    "curve_entry": 23,
-    "bogie_linearisation": 25,
-    "bogie_simulation": 18,
+    "curving_equilibrium": 23,
+    "bogie_modes": 23,
+    "curve_entry": 24,
+    "bogie_linearisation": 26,
+    "bogie_simulation": 19,
     "wear": 8,
-    "evolution_tendency": 23,
-    "tendency_maps": 33,
+    "evolution_tendency": 24,
+    "tendency_maps": 35,
     "wheelset_designs": 7,
-    "bogie_designs": 34,
-    "robustness_sample": 34,
-    "robust_tuning": 31,
+    "bogie_designs": 35,
+    "robustness_sample": 35,
+    "robust_tuning": 33,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 
@@ -185,7 +187,8 @@ def test_library_does_not_know_snakemake(module: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "module", sorted(set(of_packages([*MODEL, "stages", "variables"])) - READ_MEASUREMENTS)
+    "module",
+    sorted(set(of_packages([*MODEL, "stages", "variables"])) - READ_MEASUREMENTS - READ_TABLES),
 )
 def test_model_touches_no_files_and_draws_nothing(module: str) -> None:
     tops = {name.partition(".")[0] for name in imported(module)}

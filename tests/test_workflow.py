@@ -417,7 +417,7 @@ def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
         other = load(completed / "config", overrides=content)
         differing = {r for r in before if used_values(other, "paper", r) != before[r]}
         differing = {re.sub("_(none|paper|tuned)$", "", name) for name in differing}
-        prefixes = [prefix for prefix in USERS if key.startswith(f"{prefix}.")]
+        prefixes = [p for p in USERS if key == p or key.startswith(f"{p}.")]
         assert differing == set(USERS[max(prefixes, key=len)]), key
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from wear_charts import chart_with
+from wear_charts import MIDDLE, chart_with
 
 from tramdva.bogie import revolutions
 from tramdva.bogie import wheel_forces as running_module
@@ -71,11 +71,10 @@ def stored(quiet, rough):
 
 def settings(amplitude=1e-6, wheels=FRONT, **wear_changes):
     numerics = SETTINGS | {"step_tolerance": 0.05, "wear_cells_along": 24, "wear_strips": 24}
-    chart = {"method": "constant"} | wear_changes
     return {
         "out_of_roundness": {"amplitude": amplitude, "wheels": list(wheels), "measured": ""},
         "numerics": numerics,
-        "wear": chart,
+        "wear": MIDDLE | {"method": "constant"} | wear_changes,
     }
 
 
@@ -267,9 +266,12 @@ def test_translating_absorbers_respond_alike_at_the_same_equilibrium(line, quiet
 
 def test_a_self_excited_bogie_does_not_run_periodically(line, running, tables):
     unstable = changed(with_friction_decrease(line, 1.2), None, running)
-    values = variables(
-        rough_bogie(unstable.curve, unstable.equilibrium), unstable.curve.contacts, R0, (12, 12)
-    )
+    values = {
+        "absorber": np.array("none"),
+        **variables(
+            rough_bogie(unstable.curve, unstable.equilibrium), unstable.curve.contacts, R0, (12, 12)
+        ),
+    }
     cfg = settings()
     cfg["numerics"]["longest_transient"] = 8
     found = bogie_simulation.compute(cfg, 30, tables, values)

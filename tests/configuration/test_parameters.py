@@ -1,6 +1,8 @@
 """The parameter sets and what is generated from them."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import jsonschema
@@ -98,7 +100,8 @@ def test_generated_files_are_rewritten(root: Path, tmp_path: Path) -> None:
     readme = (root / "config/README.md").read_text(encoding="utf-8")
     (tmp_path / "README.md").write_text(readme.replace("Table 1", "Table 9"), encoding="utf-8")
 
-    reference.main(tmp_path)
+    command = [sys.executable, "-m", "tramdva.configuration.reference", str(tmp_path)]
+    subprocess.run(command, check=True)
 
     for name in ("README.md", "schema.json"):
         assert (tmp_path / name).read_bytes() == (root / "config" / name).read_bytes()

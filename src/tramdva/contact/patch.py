@@ -206,9 +206,7 @@ def wheel_contact(
     work,
     result,
 ):
-    """Force and moment of one contact zone on the wheel.
-
-    Axes: x along the rail abreast of the wheel's centre.
+    """Force and moment of one contact zone on the wheel; x is along the rail abreast of its centre.
 
     Parameters
     ----------
@@ -226,8 +224,7 @@ def wheel_contact(
 
     Returns
     -------
-    force_x, force_y, force_z in N on the wheel, moment_x, moment_y, moment_z in N m about the
-    wheel centre.
+    force (x, y, z) in N on the wheel, then moment (x, y, z) in N m about the wheel's centre.
     """
     found, arm_x, arm_y, arm_z, yaw, turn = contact_point(
         table, side, position, angles, radius_deviation, rail_curvature, rows
