@@ -15,7 +15,15 @@ import numpy as np
 from numba import njit
 from scipy.optimize import brentq
 
-from tramdva.contact import fastsim, geometry, kalker, patch, profiles, traction_field
+from tramdva.contact import (
+    creep_table,
+    fastsim,
+    geometry,
+    kalker,
+    patch,
+    profiles,
+    traction_field,
+)
 
 REPEATS, CALLS = 9, 20_000
 A, B, LOAD, FRICTION = 4e-3, 4e-3, 35e3, 0.35
@@ -67,6 +75,27 @@ def _forces(times, flexibility, grid, work):
 
 
 @njit
+def _fastsim_and_flexibilities(times, kalker_table, grid, work):
+    total = 0.0
+    for i in range(times):
+        flexibility = kalker.flexibilities(kalker_table, A, B, 82e9)
+        total += fastsim.fastsim_forces(
+            A, B, LOAD, FRICTION, 1e-3 + 1e-9 * i, 2e-3, 0.3, flexibility, grid, work
+        )[0]
+    return total
+
+
+@njit
+def _table(times, table):
+    total = 0.0
+    for i in range(times):
+        total += creep_table.half_space_forces(
+            A, B, LOAD, FRICTION, 1e-3 + 1e-9 * i, 2e-3, 0.3, 82e9, table
+        )[0]
+    return total
+
+
+@njit
 def _field(times, flexibility, grid, field):
     total = 0.0
     for i in range(times):
@@ -110,6 +139,16 @@ def grids():
         print(line)
 
 
+def laws():
+    """Time of the table of the half-space beside FASTSIM 12 x 12 with its flexibilities."""
+    grid, table = fastsim.patch_grid(12, 12), creep_table.creep_table()
+    work = fastsim.workspace(grid)
+    plain = best(lambda n: _fastsim_and_flexibilities(n, TABLE, grid, work))
+    ours = best(lambda n: _table(n, table))
+    print(f"half-space table  {ours * 1e6:6.2f} us   FASTSIM 12 x 12 {plain * 1e6:6.2f} us", end="")
+    print(f"   ratio {ours / plain:4.2f}   {table.coefficients.nbytes / 1e6:.1f} MB")
+
+
 def contacts():
     """Rows of time per contact."""
     table = geometry.contact_tables(profiles.tram_wheel(), profiles.grooved_rail(), 0.3)[1]
@@ -146,5 +185,6 @@ def cells():
 
 if __name__ == "__main__":
     grids()
+    laws()
     contacts()
     cells()
