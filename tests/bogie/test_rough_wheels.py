@@ -19,7 +19,7 @@ from tramdva.bogie.rough_wheels import (
 from tramdva.bogie.stored import stored_bogie, variables
 from tramdva.bogie.tram import absorber, changed, transferred
 from tramdva.contact import fastsim, patch
-from tramdva.evolution.out_of_roundness import Measurement, radius_deviation
+from tramdva.evolution.out_of_roundness import radius_deviation
 from tramdva.evolution.tendency import (
     Wearing,
     evolution_tendency,
@@ -133,13 +133,15 @@ def test_response_is_linear_up_to_five_micrometres_beside_the_peaks(stored, tabl
     assert worn["harmonic_distortion"].max() > 0.05
 
 
-def test_shifting_the_waves_shifts_the_wear_and_leaves_the_response(stored, tables, rough):
+def test_shifting_the_waves_shifts_the_wear_and_leaves_the_response(stored, tables, tmp_path):
     angle = 2.0 * np.pi * np.arange(1440) / 1440
     responses, phases = [], []
     for shift in (0.0, 1.3):
-        wave = Measurement(angle, radius_deviation([26], [1e-6 * np.exp(1j * shift)], angle))
+        wave = radius_deviation([26], [1e-6 * np.exp(1j * shift)], angle)
+        np.savetxt(tmp_path / "wave.csv", np.column_stack([np.degrees(angle), 1e6 * wave]))
         cfg = settings()
-        contacts = bogie_simulation.compute(cfg, 26, tables, stored["paper"], wave)
+        cfg["out_of_roundness"]["measured"] = "wave.csv"
+        contacts = bogie_simulation.compute(cfg, 26, tables, stored["paper"], tmp_path.joinpath)
         worn = wear.compute(cfg, contacts)
         responses.append(worn["wear_amplitude"] * np.exp(1j * worn["wear_phase"]))
         spectrum = np.fft.rfft(worn["wear_depth"], axis=1)[:, 26]
