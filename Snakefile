@@ -1,13 +1,5 @@
 """The paper's table of contents: what each stage reads and is, what each figure shows."""
 
-from pathlib import Path
-
-from tramdva.configuration import measured_files
-from tramdva.configuration.reading import load_or_exit
-from tramdva.record import inventory
-from tramdva.running import job, supervision
-from tramdva.running.numba_cache import compile_kernels_once, use_numba_cache
-
 # Stage: the stages whose files it reads, and what it makes. Its script, module in
 # src/tramdva/stages, variables and file in results/{line} bear the same name.
 STAGES = {
@@ -20,29 +12,17 @@ STAGES = {
     "absorber_tuning": (["critical_hopf_curve"], "designs of the absorber (Table 2)"),
     "frequency_response": (["absorber_tuning"], "frequency response (figure 7)"),
     "contact_geometry": ([], "contact tables of the profiles"),
-    "curving_equilibrium": (
-        ["contact_geometry", "absorber_tuning"],
-        "steady curving of the bogie",
-    ),
+    "curving_equilibrium": (["contact_geometry", "absorber_tuning"], "steady curving of the bogie"),
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
-    "curve_entry": (
-        ["contact_geometry", "curving_equilibrium"],
-        "ride into the curve (figure 9)",
-    ),
-    "evolution_tendency": (
-        ["bogie_linearisation", "wear"],
-        "evolution tendency (figure 10)",
-    ),
+    "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
+    "evolution_tendency": (["bogie_linearisation", "wear"], "evolution tendency (figure 10)"),
     "tendency_maps": (
         ["contact_geometry", "bogie_linearisation"],
         "tendency over speed and radius",
     ),
     "wheelset_designs": ([], "the wheelset with any absorber"),
     "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
-    "robust_tuning": (
-        ["robustness_sample"],
-        "nominal and robust optimum of the absorber",
-    ),
+    "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
 }
 # Stages of many files each: per absorber, order or part of a sample (workflow/rules/jobs.smk).
 JOBS = {
@@ -50,10 +30,7 @@ JOBS = {
         ["contact_geometry", "curving_equilibrium"],
         "bogie on wheels out of round",
     ),
-    "bogie_simulation": (
-        ["contact_geometry", "bogie_linearisation"],
-        "simulation of orders",
-    ),
+    "bogie_simulation": (["contact_geometry", "bogie_linearisation"], "simulation of orders"),
     "wear": (["bogie_simulation"], "wear by orders"),
     "robustness_sample": (["contact_geometry"], "bogie under varied conditions"),
 }
@@ -92,35 +69,20 @@ FIGURES = {
         "Figure 7",
         PICTURE,
     ),
-    "table2_absorber_designs": (
-        ["absorber_tuning"],
-        "Forced vibrations",
-        "Table 2",
-        TABLE,
-    ),
+    "table2_absorber_designs": (["absorber_tuning"], "Forced vibrations", "Table 2", TABLE),
     "fig08_bogie": ([], "Bogie", "Figure 8", PICTURE),
     "fig09_curve_entry": (["curve_entry", "bogie_modes"], "Bogie", "Figure 9", PICTURE),
     "bogie_mode_shapes": (["bogie_modes"], "Bogie", "Mode shapes", PICTURE),
     "bogie_stability": (["bogie_modes"], "Bogie", "Stability of the bogie", PICTURE),
     "campbell_chart": (["bogie_modes"], "Bogie", "Orders over speed", PICTURE),
-    "fig10_evolution_tendency": (
-        ["evolution_tendency"],
-        "Wheel wear",
-        "Figure 10",
-        PICTURE,
-    ),
+    "fig10_evolution_tendency": (["evolution_tendency"], "Wheel wear", "Figure 10", PICTURE),
     "worn_wheels": (
         ["evolution_tendency", "wear"],
         "Wheel wear",
         "Wear around the wheels",
         PICTURE,
     ),
-    "order_speed_chart": (
-        ["tendency_maps"],
-        "Wheel wear",
-        "Growing orders over speed",
-        PICTURE,
-    ),
+    "order_speed_chart": (["tendency_maps"], "Wheel wear", "Growing orders over speed", PICTURE),
     "tendency_design_chart": (
         ["tendency_maps"],
         "Wheel wear",
@@ -133,12 +95,7 @@ FIGURES = {
         "Effect of the absorbers",
         TABLE,
     ),
-    "explorer": (
-        ["wheelset_designs", "bogie_designs"],
-        "Explorer",
-        "Any absorber",
-        PAGE,
-    ),
+    "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
     "design_sheet": (
         ["stability_map", "bogie_modes", "tendency_maps", "robust_tuning"],
         "Design sheet",
@@ -147,47 +104,8 @@ FIGURES = {
     ),
 }
 
-ROOT = Path(workflow.current_basedir)
-settings = workflow.config_settings
-configuration = load_or_exit(
-    Path("config") if Path("config/config.yaml").is_file() else ROOT / "config",
-    settings.configfiles,
-    settings.config,
-)
-LINES = configuration.run.lines
-use_numba_cache()
-if workflow.is_main_process:
-    measured_files.check_or_exit(configuration.measured)
-if supervision.enter_folder(as_job=not workflow.is_main_process):
-    inventory.take_back_dates("results", "paper_figures", "logs")
-    inventory.set_aside_unusable(configuration, ROOT / "workflow/scripts")
 
-
-report: "workflow/report/workflow.rst"
-
-
-onstart:
-    supervision.begin_run("results", "paper_figures", "logs")
-    job.stop_polling(workflow)
-    compile_kernels_once()
-    print(
-        f"tramdva: {', '.join(LINES)}; numbers in results/, figures in paper_figures/"
-    )
-
-
-onsuccess:
-    print(job.summary(LINES))
-
-
-onerror:
-    print(
-        "tramdva: not all results are complete; logs/<line>/<stage>.log says why."
-    )
-    print(
-        "A job that died of SIGKILL was killed from outside, mostly for want of memory."
-    )
-
-
+include: "workflow/rules/start.smk"
 include: "workflow/rules/files.smk"
 
 

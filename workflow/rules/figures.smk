@@ -2,9 +2,7 @@
 
 STYLE = DRAWINGS / "tramdva.mplstyle"
 # What a page is made of beside its script; drawings are made of the style, tables of nothing.
-PARTS_OF = {
-    "explorer": [DRAWINGS / f"explorer.{kind}" for kind in ("html", "css", "js")]
-}
+PARTS_OF = {"explorer": [DRAWINGS / f"explorer.{kind}" for kind in ("html", "css", "js")]}
 
 
 def parts_of(figure, kinds):

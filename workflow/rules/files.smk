@@ -10,8 +10,7 @@ SCRIPTS, DRAWINGS = ROOT / "workflow/scripts", ROOT / "paper_figures"
 values = partial(used_values, configuration)
 
 ABSORBERS = {
-    name: line.study.evolution_tendency.absorbers
-    for name, line in configuration.lines.items()
+    name: line.study.evolution_tendency.absorbers for name, line in configuration.lines.items()
 }
 ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
 # Orders of a job stay together whatever the first and the last order of the run.
@@ -19,10 +18,7 @@ GROUP = (
     configuration.run.numerics.orders_per_job
     * configuration.run.numerics.evolution_tendency.orders.step
 )
-BATCHES = [
-    list(batch)
-    for _, batch in itertools.groupby(ORDERS, key=lambda order: order // GROUP)
-]
+BATCHES = [list(batch) for _, batch in itertools.groupby(ORDERS, key=lambda order: order // GROUP)]
 OTHER_ORDERS = rf"(?!({'|'.join(map(str, ORDERS))})\b)[0-9]+"
 PARTS = range(configuration.run.numerics.robustness_sample.parts)
 # Files of the stages of JOBS.
@@ -45,9 +41,7 @@ def files_of(stage, line):
     """Name the file of a stage; all of its files, as a list, where it is made by many jobs."""
     if stage in STAGES:
         return f"results/{line}/{stage}.nc"
-    return expand(
-        PATTERNS[stage], line=line, absorber=ABSORBERS[line], order=ORDERS, part=PARTS
-    )
+    return expand(PATTERNS[stage], line=line, absorber=ABSORBERS[line], order=ORDERS, part=PARTS)
 
 
 def orders_of(stage, batch):
@@ -63,28 +57,20 @@ def span(batch):
 def inputs(stages):
     """Name the files that a rule reads by the stages that make them."""
     return {
-        stage: partial(lambda w, stage: files_of(stage, w.line), stage=stage)
-        for stage in stages
+        stage: partial(lambda w, stage: files_of(stage, w.line), stage=stage) for stage in stages
     }
 
 
 def pictures_of(figure, line):
     """Name the files of a figure."""
-    return [
-        f"paper_figures/{line}/{figure}.{kind}" for kind in FIGURES[figure][-1].values()
-    ]
+    return [f"paper_figures/{line}/{figure}.{kind}" for kind in FIGURES[figure][-1].values()]
 
 
 def outputs(figure):
     """Name the files of a figure by their kinds; the last one is shown in the report."""
     _, chapter, name, kinds = FIGURES[figure]
-    files = {
-        kind: f"paper_figures/{{line}}/{figure}.{suffix}"
-        for kind, suffix in kinds.items()
-    }
+    files = {kind: f"paper_figures/{{line}}/{figure}.{suffix}" for kind, suffix in kinds.items()}
     shown = list(files)[-1]
     caption = ROOT / f"workflow/report/{figure}.rst"
     labels = {"line": "{line}", "shows": name}
-    return files | {
-        shown: report(files[shown], category=chapter, caption=caption, labels=labels)
-    }
+    return files | {shown: report(files[shown], category=chapter, caption=caption, labels=labels)}

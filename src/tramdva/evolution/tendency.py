@@ -219,16 +219,21 @@ def normalised(tendency: np.ndarray, reference: np.ndarray) -> np.ndarray:
     return tendency / np.where(size > 0.0, size, np.nan)[:, None]
 
 
+def highest_top(tendency: np.ndarray) -> int | None:
+    """Place of the highest positive local maximum in a curve (k,); None where there is none."""
+    middle = tendency[1:-1]
+    tops = 1 + np.flatnonzero((middle > 0.0) & (middle >= tendency[:-2]) & (middle > tendency[2:]))
+    return int(tops[np.argmax(tendency[tops])]) if tops.size else None
+
+
 def highest_peak(frequency: np.ndarray, tendency: np.ndarray) -> tuple[float, float]:
     """Frequency (Hz) and height of the highest positive local maximum; NaN where there is none.
 
     The vertex of the parabola through the highest point and its neighbours.
     """
-    middle = tendency[1:-1]
-    tops = 1 + np.flatnonzero((middle > 0.0) & (middle >= tendency[:-2]) & (middle > tendency[2:]))
-    if not tops.size:
+    k = highest_top(tendency)
+    if k is None:
         return np.nan, np.nan
-    k = tops[np.argmax(tendency[tops])]
     a, b, c = tendency[k - 1 : k + 2]
     shift = 0.5 * (a - c) / (a - 2.0 * b + c)
     step = frequency[k + 1] - frequency[k]

@@ -7,7 +7,7 @@ import numpy as np
 
 from tramdva.bogie import absorber_ports
 from tramdva.bogie.absorber_ports import Motion
-from tramdva.evolution.tendency import NEAR, order_of_frequency
+from tramdva.evolution.tendency import NEAR, highest_top, order_of_frequency
 from tramdva.robustness.criterion import (
     Criterion,
     Design,
@@ -266,10 +266,8 @@ def _top(frequency: np.ndarray, tendency: np.ndarray, band: Mapping[str, float])
     """Frequency in Hz of the highest positive peak in a band; NaN if there is none."""
     inside = (frequency >= band["min"]) & (frequency <= band["max"])
     axis, first = np.unique(frequency[inside], return_index=True)
-    curve = tendency[inside][first]
-    middle = curve[1:-1]
-    tops = 1 + np.flatnonzero((middle > 0.0) & (middle >= curve[:-2]) & (middle > curve[2:]))
-    return float(axis[tops[np.argmax(curve[tops])]]) if tops.size else np.nan
+    top = highest_top(tendency[inside][first])
+    return np.nan if top is None else float(axis[top])
 
 
 def _loads(cfg, sample, near: Fleet, designs) -> dict[str, np.ndarray]:
