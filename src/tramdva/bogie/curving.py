@@ -133,8 +133,8 @@ class Equilibrium(NamedTuple):
 
     results : (4, zones, patch.RESULTS)
     status : one of `STATUS`; outside a table the results of that contact are not a number
-    needed_yaw : rad of a wheel against its rail where the status is `outside_profile`, beyond the
-        tables' or not; else not a number
+    needed_yaw : rad of a wheel against its rail where that is beyond the contact tables; else not a
+        number, also where the status is `outside_profile` for the wheel's shift or roll
     """
 
     state: np.ndarray
@@ -186,11 +186,10 @@ def equilibrium(
     logger.info("equilibrium: %s, residual %.1e", status, residual)
     needed = np.nan
     if status == "outside_profile":
-        needed = _needed_yaw(system, state)
-        logger.warning(
-            "a contact is outside its table, which reaches a yaw of %.4f rad; it needs %.4f rad",
-            _table_yaw(system), needed,
-        )  # fmt: skip
+        needed, reach = _needed_yaw(system, state), _table_yaw(system)
+        logger.info("a wheel is outside its contact table: yaw %.4f rad of %.4f rad", needed, reach)
+        if needed <= reach:  # then it is the lateral shift or the roll
+            needed = np.nan
         # Numbers held at the end of a table are no results.
         outside = results[..., patch.STATUS] == patch.INVALID
         results[..., : patch.RESULTS][outside] = np.nan
@@ -210,7 +209,9 @@ def _needed_yaw(system: System, state: np.ndarray) -> float:
 
 def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:
     k = system.size
-    return np.concatenate([state[k : 2 * k], scipy.linalg.lu_solve(mass, system.forces(state))])
+    force = system.forces(state)  # not a number where profiles cannot touch in one point
+    acceleration = scipy.linalg.lu_solve(mass, force, check_finite=False)
+    return np.concatenate([state[k : 2 * k], acceleration])
 
 
 def _unbalanced(rate: np.ndarray) -> float:
@@ -262,14 +263,18 @@ def enter_curve(
     halvings : of a step from one track to the next that loses the equilibrium, at most
     """
     state = start
-    for known, system in itertools.pairwise(systems):
+    for known, system in itertools.pairwise(systems[:-1]):
         state = _followed(known, state, system, halvings).state
-    return equilibrium(systems[-1], state, tolerance)
+    found = equilibrium(systems[-1], state, tolerance)
+    if found.status == "converged" or len(systems) == 1:
+        return found
+    near = _followed(systems[-2], state, systems[-1], halvings)
+    return equilibrium(systems[-1], near.state, tolerance) if near.status == "converged" else found
 
 
 def _followed(known: System, state: np.ndarray, system: System, halvings: int) -> Equilibrium:
     """Rough equilibrium on a track, from that on another; by way of tracks between if needed."""
-    found = equilibrium(system, state, 1e-3, 60)
+    found = equilibrium(system, state, 1e-3, 150)
     if found.status == "converged" or halvings == 0:
         return found
     # Curvatures, offsets and loads of the frames are linear in the curvature and cant of the track.
