@@ -99,12 +99,20 @@ def tabulated(tables, shift, height, yaw):
 
 
 def loaded(contacts_at, low, load):
-    """Height at which the vertical force is the load, and the contacts there."""
+    """Height at which the vertical force is the load, and the contacts there.
+
+    Not a number where the contacts jump past the load: a rigid contact has no height then.
+    """
 
     def excess(z):
         return sum(c[3] * np.cos(c[1]) for c in contacts_at(z)) - load
 
-    z = brentq(excess, low - 5e-5, low + 4e-4, xtol=1e-10)
+    ends = low - 5e-5, low + 6e-4
+    if not excess(ends[0]) * excess(ends[1]) < 0.0:
+        return np.nan, []
+    z = brentq(excess, *ends, xtol=1e-10)
+    if abs(excess(z)) > 1e-3 * load:
+        return np.nan, []
     return z, contacts_at(z)
 
 
@@ -132,19 +140,22 @@ def main(name: str, force: float) -> None:
             [min(rows, key=lambda row: row[1])[2] if rows else np.inf for rows in found]
         )
         first = fine[np.flatnonzero(angle > 0.1)[0]]  # the flange begins to touch
-        off = []
+        off, skipped = [], 0
         for shift in first - 0.3e-3 + np.arange(0.0, 3.0e-3, 0.05e-3):
             low = np.interp(shift, fine, lowest)
             if np.interp(shift, fine, angle) > np.radians(71.0):
                 break
             z, one = loaded(lambda h, u=shift, f=found: exact(f, u, h), low, force)
             y, two = loaded(lambda h, u=shift, g=yaw: tabulated(zones, u, h, g), low, force)
+            if np.isnan(z) or np.isnan(y):
+                skipped += 1
+                continue
             (a, mean), (b, other) = shares(one), shares(two)
             off.append((len(one), 1e6 * abs(z - y), 1e-3 * np.abs(a - b).max(),
                         np.degrees(abs(mean - other)), shift))  # fmt: skip
         count, height, share, turned, _ = np.array(off).T
         print(
-            f"{yaw:.3f}  {int(count.min())}-{int(count.max())} ({len(off)})  "
+            f"{yaw:.3f}  {int(count.min())}-{int(count.max())} ({len(off)}, {skipped} without)  "
             f"{height.mean():.1f} {height.max():.1f}  {share.mean():.2f} {share.max():.2f}  "
             f"{turned.mean():.2f} {turned.max():.2f}"
         )

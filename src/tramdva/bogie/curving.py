@@ -280,7 +280,8 @@ def _followed(known: System, state: np.ndarray, system: System, halvings: int) -
     middle = _followed(known, state, between, halvings - 1)
     if middle.status != "converged":
         return found
-    return _followed(between, middle.state, system, halvings - 1)
+    nearer = _followed(between, middle.state, system, halvings - 1)
+    return nearer if nearer.status == "converged" else found
 
 
 def oscillations(eigenvalue: np.ndarray, limits: tuple[float, float]) -> np.ndarray:

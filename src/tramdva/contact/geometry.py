@@ -25,7 +25,7 @@ WHEEL_STRIDE = 4
 SHEAR_ANGLE = np.radians(60.0)
 SPLIT_BARRIER = 2.0
 SPLIT_DISTANCE = 4e-3
-RETREAT = 60.0  # 1/m, bend of a zone's continuation beyond its split
+RETREAT = 60.0  # 1/m, curvature of a zone's continuation beyond its split
 SPLIT_TOLERANCE = 0.06e-3  # covers one step of shift at a jump from tread to flank
 OUTSIDE_TABLE = 1
 WINDOW = 6
@@ -66,21 +66,28 @@ def zone_splits(
     contact jumps there, and the split lies at the largest gap between them. Jumps over a gap below
     `SPLIT_BARRIER` times `gap_scale` are one wide patch under load and need no split.
     """
-    found = []
+    splits: list[float] = []
     for yaw in yaw_angles:
-        curve = np.empty((2, wheel.position.size))
-        tangent = np.tan(yaw) ** 2
-        locus.silhouette(
-            wheel.position, wheel.depth, wheel.slope, wheel_radius, tangent, 0.0, *curve
-        )
-        for shift in np.arange(*shift_range, 0.02 * MM):
-            found += _two_point_barriers(curve, wheel.position, rail, shift)
-    splits = []
+        for position in _splits_at(wheel, rail, wheel_radius, shift_range, gap_scale, yaw):
+            near = [other for other in splits if abs(position - other) <= SPLIT_DISTANCE]
+            # Of those of one jump, the one that leaves the zone of the tread's side least.
+            splits = [other for other in splits if other not in near] + [max([position, *near])]
+    return tuple(sorted(splits, reverse=True))
+
+
+def _splits_at(wheel, rail, wheel_radius, shift_range, gap_scale, yaw) -> list[float]:
+    """Positions of the highest barriers at one yaw angle, `SPLIT_DISTANCE` apart."""
+    curve, found = np.empty((2, wheel.position.size)), []
+    tangent = np.tan(yaw) ** 2
+    locus.silhouette(wheel.position, wheel.depth, wheel.slope, wheel_radius, tangent, 0.0, *curve)
+    for shift in np.arange(*shift_range, 0.02 * MM):
+        found += _two_point_barriers(curve, wheel.position, rail, shift)
+    splits: list[float] = []
     for barrier, position in sorted(found, reverse=True):
         apart = all(abs(position - other) > SPLIT_DISTANCE for other in splits)
         if barrier > SPLIT_BARRIER * gap_scale and apart:
             splits.append(position)
-    return tuple(sorted(splits, reverse=True))
+    return splits
 
 
 def _two_point_barriers(curve, wheel_position, rail, shift):
@@ -104,9 +111,10 @@ def _zone(wheel: Profile, inner: float | None, outer: float | None):
     for split, beyond in ((inner, y < (inner or 0.0)), (outer, y > (outer or 0.0))):
         if split is not None:
             tangent, distance = float(wheel.slope_at(split)), y[beyond] - split
-            retreat = 0.5 * RETREAT * distance**2
-            z[beyond] = wheel.depth_at(split) + tangent * distance - retreat
-            slope[beyond] = tangent - RETREAT * distance
+            # On a steep flank a short distance across is a long way along the profile.
+            bend = RETREAT * (1.0 + tangent**2) ** 1.5
+            z[beyond] = wheel.depth_at(split) + tangent * distance - 0.5 * bend * distance**2
+            slope[beyond] = tangent - bend * distance
     return y, z, slope, -np.gradient(slope, y) / (1.0 + slope**2) ** 1.5
 
 
