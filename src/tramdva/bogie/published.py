@@ -64,7 +64,7 @@ BOGIE = {
         "torsional_stiffness": 1200000.0,
         "axial_stiffness": 1000000000.0,
         "polar_inertia_per_length": 0.6,
-        "damping_ratio": 0.036638,
+        "damping_ratio": 0.036630,
         "damping_reference_frequency": 60,
         "damping_exponent": 0.7,
     },
