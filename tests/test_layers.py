@@ -55,12 +55,12 @@ TOUCH_THE_DISK = {
 # Modules of the model that a stage reaches; each one more is one more whose edit reruns it.
 BUDGET = {
     "stability_map": 6,
-    "hopf_points": 10,
-    "limit_cycles": 15,
-    "hopf_curves": 12,
-    "critical_hopf_curve": 12,
-    "cycle_amplitudes": 17,
-    "absorber_tuning": 14,
+    "hopf_points": 11,
+    "limit_cycles": 16,
+    "hopf_curves": 13,
+    "critical_hopf_curve": 13,
+    "cycle_amplitudes": 18,
+    "absorber_tuning": 15,
     "frequency_response": 7,
     "contact_geometry": 6,
     "curving_equilibrium": 23,

@@ -136,6 +136,7 @@ USERS = {
         "robust_tuning",
     ],
     "study.tendency_maps": ["tendency_maps"],
+    "study.tendency_maps.radius.min": ["contact_geometry", "tendency_maps"],
     "study.tendency_maps.c_T": ["tendency_maps", "robust_tuning"],
     "study.tendency_maps.d_T": ["tendency_maps", "robust_tuning"],
     "study.design_sheet": ["robust_tuning", "design_sheet"],

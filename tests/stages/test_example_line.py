@@ -17,7 +17,7 @@ from tramdva.evolution.out_of_roundness import order_amplitudes, read_measuremen
 
 NAME = "worn-40m"
 CHANGED = {  # what the line changes for each stage of the bogie
-    "contact_geometry": {"contact_geometry", "bogie", "measured"},
+    "contact_geometry": {"contact_geometry", "bogie", "measured", "track", "study"},
     "bogie_simulation": {"out_of_roundness", "measured"},
     "wear": set(),
     "tendency_maps": {"track", "bogie", "contact_geometry", "forced_excitation", "study"},

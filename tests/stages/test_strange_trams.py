@@ -54,6 +54,7 @@ def test_nan_needs_a_reason() -> None:
         "receptance_phase": np.ones((3, 2)),
         "stroke_amplitude": np.ones((3, 2)),
         "y_R_equilibrium": np.ones(()),
+        **{name: np.ones(3) for name in ("peak_receptance", "peak_frequency")},
     }
 
     found = strange_trams.unexplained("frequency_response", values)

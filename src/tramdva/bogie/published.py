@@ -154,7 +154,7 @@ def paper_bogie(
     """
     bogie, geometry = Bogie.model_validate(BOGIE), ContactGeometry.model_validate(CONTACT_GEOMETRY)
     track = Track.model_validate(TRACK)
-    reach = yaw_reach(track.radius, bogie.half_wheelbase, bogie.wheel.half_distance)
+    reach = yaw_reach(0.8 * track.radius, bogie.half_wheelbase, bogie.wheel.half_distance)
     return BogieLine(
         bogie,
         track,

@@ -105,6 +105,7 @@ USES: dict[str, tuple[str, ...]] = {
         "bogie.wheel.half_distance",
         "bogie.half_wheelbase",
         "track.radius",
+        "study.tendency_maps.radius.min",
         "measured.wheel",
         "measured.rail",
         "numerics.contact_geometry",

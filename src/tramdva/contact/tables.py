@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 # Range of the contact tables: m of lateral shift, rad of roll; the yaw that `yaw_nodes` are for.
 SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
-# Contact tables serve curves sharper than the line's by this factor of the radius.
-SHARPEST = 0.8
 SPLIT_ANGLES = 7  # yaw angles at which jumps of the contact are looked for
 _VIBRATION = 2e-3  # rad of yaw beside the steady one
 
@@ -52,21 +50,20 @@ def zone_names(count: int) -> list[str]:
 
 
 def yaw_reach(radius: float, half_wheelbase: float, half_distance: float) -> float:
-    """Yaw angle in rad of a wheel against its rail up to which a line needs contact tables.
+    """Yaw angle in rad of a wheel against its rail up to which contact tables must reach.
 
     Parameters
     ----------
-    radius : m, of the line's curve; half_wheelbase, half_distance : m, of the bogie
+    radius : m, of the sharpest curve that they serve
+    half_wheelbase, half_distance : m, of the bogie
 
     Notes
     -----
-    In the sharpest curve that the tables serve: the angle of the chord, the bogie's yaw in the play
-    of its flanges, the turn of the rail at the wheel that a yawed axle puts ahead, and some more
+    The angle of the chord, the bogie's yaw in the play of its flanges, the turn of the rail at the wheel that a yawed axle puts ahead, and some more
     for vibrations.
     """
-    sharpest = SHARPEST * radius
-    attack = half_wheelbase / sharpest + 0.5 * SHIFT_RANGE / half_wheelbase
-    return attack * (1.0 + half_distance / sharpest) + _VIBRATION
+    attack = half_wheelbase / radius + 0.5 * SHIFT_RANGE / half_wheelbase
+    return attack * (1.0 + half_distance / radius) + _VIBRATION
 
 
 def zone_tables(

@@ -12,6 +12,9 @@ from tramdva.variables.contact_geometry import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
 
+# Varied conditions are curves sharper than the line's by this factor of the radius at most.
+SHARPEST = 0.8
+
 
 def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict[str, np.ndarray]:
     """Contact tables of the line's profiles: variables of ``contact_geometry.nc``.
@@ -33,8 +36,13 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
         cfg["numerics"]["shift_step"],
         cfg["numerics"]["yaw_nodes"],
         yaw_limit=yaw_reach(
-            cfg["track"]["radius"], bogie["half_wheelbase"], bogie["wheel"]["half_distance"]
+            _sharpest_curve(cfg), bogie["half_wheelbase"], bogie["wheel"]["half_distance"]
         ),
         **profiles,
     )
     return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
+
+
+def _sharpest_curve(cfg: Mapping[str, Any]) -> float:
+    """Radius in m of the sharpest curve that any stage asks for."""
+    return min(SHARPEST * cfg["track"]["radius"], cfg["study"]["radius"]["min"])
