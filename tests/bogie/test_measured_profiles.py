@@ -18,8 +18,8 @@ from tramdva.stages.bogie_sections import bogie_line
 
 # Per noise in m: tolerances of the angle of attack (rad), wheel loads (N), contact angle (rad) of
 # loaded contacts, frequency (Hz) and growth rate (1/s) of the modes of the front axle.
-# The patch of a yawed wheel follows the curvature of the profile itself: what noise does to it moves
-# the second bending mode most.
+# The patch of a yawed wheel follows the curvature of the profile itself: what noise does to that
+# moves the second bending mode most.
 TOLERANCES = {0.0: (1e-5, 1.0, 1e-4, 0.02, 0.01), 2e-6: (5e-5, 10.0, 2e-3, 1.2, 0.8)}
 NAMES = ("second_bending_front", "third_bending_front", "resilient_wheel_front")
 

@@ -113,8 +113,8 @@ def test_simulated_and_linearised_wear_agree(stored, rough, quiet, tables, name,
 def test_simulated_and_linearised_wear_agree_with_the_sharp_chart(stored, rough, quiet, tables):
     """On the grid of the full run, by waves of 0.2 um.
 
-    The outer wheel slips at 0.199 m/s: waves of 1 um move the chart's step at 0.2 m/s through so much
-    of the patch that the response is no longer linear.
+    The outer wheel slips at 0.199 m/s: waves of 1 um move the chart's step at 0.2 m/s through so
+    much of the patch that the response is no longer linear.
     """
     for order in (26, 51):
         cfg = settings(amplitude=2e-7, method="chart")

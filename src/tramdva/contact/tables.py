@@ -59,8 +59,8 @@ def yaw_reach(radius: float, half_wheelbase: float, half_distance: float) -> flo
 
     Notes
     -----
-    The angle of the chord, the bogie's yaw in the play of its flanges, the turn of the rail at the wheel that a yawed axle puts ahead, and some more
-    for vibrations.
+    The angle of the chord, the bogie's yaw in the play of its flanges, the turn of the rail at the
+    wheel that a yawed axle puts ahead, and some more for vibrations.
     """
     attack = half_wheelbase / radius + 0.5 * SHIFT_RANGE / half_wheelbase
     return attack * (1.0 + half_distance / radius) + _VIBRATION
