@@ -33,7 +33,10 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 default_role = "code"
-suppress_warnings = ["config.cache"]
+napoleon_use_ivar = True  # fields of named tuples are described once, by their annotations
+# Short names of types that several packages have are each their own.
+# Short names of types that several packages have are each their own.
+suppress_warnings = ["config.cache", "ref.python"]
 
 apidoc_modules = [
     {

@@ -133,8 +133,9 @@ class Equilibrium(NamedTuple):
 
     results : (4, zones, patch.RESULTS)
     status : one of `STATUS`; outside a table the results of that contact are not a number
-    needed_yaw : rad of a wheel against its rail where that is beyond the contact tables; else not a
-        number, also where the status is `outside_profile` for the wheel's shift or roll
+    needed_yaw : rad of a wheel against its rail where that is beyond the contact tables, else NaN
+
+    Outside a profile by the shift or roll of a wheel, `needed_yaw` is NaN as well.
     """
 
     state: np.ndarray

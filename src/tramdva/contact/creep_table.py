@@ -5,13 +5,14 @@ uniform cubic B-splines over
 
 * ln(a/b) between -ln 16 and ln 16; beyond, the curves keep the shape of the end,
 * 2/pi atan(w_s / 1.5), how much spin there is,
-* 2/pi atan(w / |(1.5, w_s)|), how much creepage beside it; 1 is full sliding,
-* atan2(|w_x|, w_y) / pi, its direction
+* ``2/pi atan(w / |(1.5, w_s)|)``, how much creepage beside it; 1 is full sliding,
+* ``atan2(|w_x|, w_y) / pi``, its direction
 
-with w_x = C11 X, w_y = C22 Y, w = |(w_x, w_y)|, w_s = |(C11 sqrt(b/a), C22 sqrt(a/b))| |Z| / 2 and
-the reduced creepages X, Y, Z of `rolling`: every creepage from none to infinite has a place. The
-other signs follow by symmetry, smoothly. `benchmarks/creep_force_table.py` makes the table for
-Poisson's ratio 0.28; another one enters by C11 and C22, in proportion to Kalker's table.
+with w_x = C11 X, w_y = C22 Y, ``w = |(w_x, w_y)|``,
+``w_s = |(C11 sqrt(b/a), C22 sqrt(a/b))| |Z| / 2`` and the reduced creepages X, Y, Z of `rolling`:
+every creepage from none to infinite has a place. The other signs follow by symmetry, smoothly.
+`benchmarks/creep_force_table.py` makes the table for Poisson's ratio 0.28; another one enters by
+C11 and C22, in proportion to Kalker's table.
 
 Axes, signs and units as in `fastsim`.
 """
@@ -41,6 +42,7 @@ class CreepTable(NamedTuple):
 
     coefficients : (ratios, spins, creepages, directions, COMPONENTS) of the B-splines, two more
         than nodes on every axis
+
     linear : as `kalker.kalker_table`, 1/C11 and 1/C22 of this theory and their slopes
     """
 

@@ -36,8 +36,7 @@ class WearPorts(NamedTuple):
     """The bogie without absorbers as they see it, for the wear of the wheels out of round.
 
     without_absorbers : (f, wheels) complex wear response
-    ports : of the places of the absorbers; those that translate load the axle across their
-        direction already
+    ports : of the places of the absorbers, whose mass across their direction loads the axle already
     """
 
     without_absorbers: np.ndarray
