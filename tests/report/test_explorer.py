@@ -324,6 +324,11 @@ def test_narrow_page_needs_no_scrolling_sideways(browser, page):
     assert watched.said == []
 
 
+NUMBERS_OF_DESIGNS = (
+    "growth", "leading", "receptance", "peak", "reduction", "best_", "map_", "none_",
+)  # fmt: skip
+
+
 def test_nothing_stable_leaves_no_best_design(browser, wheelset, tmp_path):
     """Four wheels, a bogie that always vibrates, and a wheelset without an equilibrium."""
     wheels = (*WHEELS, "rear_outer", "rear_inner")
@@ -332,7 +337,7 @@ def test_nothing_stable_leaves_no_best_design(browser, wheelset, tmp_path):
     for name, values in wheelset.items():
         if name.endswith("instability"):
             nowhere[name] = np.full(np.shape(values), "no_equilibrium")
-        elif name.startswith(("growth", "leading", "receptance", "peak", "map_", "none_")):
+        elif name.startswith(NUMBERS_OF_DESIGNS):
             nowhere[name] = np.full(np.shape(values), np.nan)
     watched = opened(browser, made_page(tmp_path, nowhere, bogie, "A line"))
     tab = watched.tab
