@@ -334,4 +334,5 @@ def workspace(contacts: wheel_forces.Contacts) -> tuple:
     """Scratch arrays for `run`."""
     scratch, results = wheel_forces.workspace(contacts)
     deviation, rate = np.empty((2, 4, len(contacts.tables)))
-    return np.empty(44), np.empty(24), np.empty(3), deviation, rate, scratch, results
+    local, force = np.empty(4 * wheel_forces.LOCALS), np.empty(4 * wheel_forces.WHEEL_FORCES)
+    return local, force, np.empty(3), deviation, rate, scratch, results

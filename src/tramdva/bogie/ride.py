@@ -85,7 +85,7 @@ def ride(route: Route, duration: float, interval: float, every: int, tolerance: 
     samples = intervals // every
     contacts = route.systems[0].contacts
     zones = len(contacts.tables)
-    local = np.full((samples, 44), np.nan)
+    local = np.full((samples, 4 * wheel_forces.LOCALS), np.nan)
     results = np.full((samples, 4, zones, len(integration.RECORDED)), np.nan)
     columns = np.array(integration.RECORDED)
     work = integration.workspace(contacts)
