@@ -26,7 +26,7 @@ def main(name: str, target: float) -> None:
     tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
     cfg = used_values(configuration, name, "bogie_modes")
     line = bogie_line(cfg, tables)
-    known = tram.run_through(line, cfg["numerics"]["curvature_steps"])
+    known = tram.run_through(line)
     limits = (cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"])
 
     def critical(ratio: float) -> modes.Critical:

@@ -98,7 +98,7 @@ def main(name: str) -> None:
     tables = contact_geometry.compute(used_values(configuration, name, "contact_geometry"))
     cfg = used_values(configuration, name, "curve_entry")
     line = bogie_line(cfg, tables)
-    known = tram.run_through(line, cfg["numerics"]["curvature_steps"])
+    known = tram.run_through(line)
     limits = (30.0, 200.0)
     per_call = contact_cost(known)
     numerics, study = cfg["numerics"], cfg["study"]

@@ -42,4 +42,4 @@ def line(configuration, tables) -> BogieLine:
 @pytest.fixture(scope="session")
 def running(line) -> Running:
     """Equilibria without absorbers."""
-    return bogie_line_module.run_through(line, 4)
+    return bogie_line_module.run_through(line)

@@ -23,7 +23,7 @@ DURATION = 0.2
 @pytest.fixture(scope="module")
 def conservative(line):
     """System without damping, friction and drag, and its equilibrium."""
-    run = run_through(line._replace(friction=(0.0, 1.0, 0.0)), 1)
+    run = run_through(line._replace(friction=(0.0, 1.0, 0.0)))
     vehicle = run.straight.vehicle
     vehicle = vehicle._replace(
         damping=0.0 * vehicle.damping,

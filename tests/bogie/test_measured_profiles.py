@@ -87,7 +87,7 @@ def test_bogie_curves_and_vibrates_alike(configuration, running_, measured):
     noise, found = measured
     attack, load, angle, frequency, growth = TOLERANCES[noise]
     line = bogie_line(used_values(configuration, "paper", "curving_equilibrium"), found)
-    other = bogie_line_module.run_through(line, 4)
+    other = bogie_line_module.run_through(line)
     assert other.equilibrium.status == "converged"
     np.testing.assert_allclose(
         angle_of_attack(other.curve, other.equilibrium),

@@ -28,7 +28,7 @@ def worn(configuration):
         used_values(configuration, "worn-40m", "contact_geometry"), lambda name: CONFIG / name
     )
     line = bogie_line(used_values(configuration, "worn-40m", "curving_equilibrium"), tables)
-    return line, run_through(line, 4)
+    return line, run_through(line)
 
 
 @pytest.fixture(scope="module", params=["paper", "worn-40m"])

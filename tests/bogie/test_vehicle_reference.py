@@ -118,7 +118,7 @@ def in_curve(request, configuration):
     stage |= {key: values[key] for key in ("bogie", "contact_geometry", "track")}
     stage["creep_force"] = {**stage["creep_force"], **values["creep_force"]}
     line = bogie_line(stage, tables)
-    return request.param, run_through(line, 4)
+    return request.param, run_through(line)
 
 
 def reference_curving(name: str, quantity: str, structure="linear", **chosen) -> dict[str, float]:

@@ -120,7 +120,7 @@ def test_case_is_the_line_computed_directly(loaded, geometry, sample):
         "bogie": cfg["bogie"] | {"absorber": absorber},
     }
     line = quiet_bogie_line(direct, geometry)
-    run = run_through(line, cfg["numerics"]["curvature_steps"])
+    run = run_through(line)
     bogie = rough_bogie(run.curve, run.equilibrium)
     wheels = wearing(cfg)
     worn = wear_sensitivity(bogie, run.curve.contacts.law, wheels)

@@ -153,7 +153,7 @@ def running_without(bogie_cfg, tables):
         "": bogie_line(bogie_cfg, tables),
         "quiet_": quiet_bogie_line(bogie_cfg, tables),
     }
-    return {prefix: (line, tram.run_through(line, 4)) for prefix, line in lines.items()}
+    return {prefix: (line, tram.run_through(line)) for prefix, line in lines.items()}
 
 
 @pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 1), (2, 1)])
@@ -189,7 +189,7 @@ def test_paper_bogie_vibrates_without_absorbers_and_not_with_them(bogie):
 
 def test_without_equilibrium_there_is_a_status_and_no_number(bogie_cfg, tables, monkeypatch):
     lifted = SimpleNamespace(equilibrium=SimpleNamespace(status="wheel_lifted"))
-    monkeypatch.setattr(bogie_designs, "run_through", lambda line, steps: lifted)
+    monkeypatch.setattr(bogie_designs, "run_through", lambda line: lifted)
 
     found = bogie_designs.compute(bogie_cfg, tables)
 

@@ -64,7 +64,6 @@ COARSE: dict[str, Any] = {
         "strips": 6,
         "cutoff_frequency": 300,
         "elements_per_section": 2,
-        "curvature_steps": 4,
     },
     "bogie_modes": {"friction_points": 2, "map_points": 2},
     "curve_entry": {"interval": 2.0e-3, "every": 10, "tolerance": 5.0e-2},

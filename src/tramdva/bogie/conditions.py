@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.curving import Equilibrium, System, equilibrium
+from tramdva.bogie.curving import Equilibrium, System, near
 from tramdva.bogie.parameters import BareBogie, BogieAbsorber
 from tramdva.bogie.tram import BogieLine, Running, systems, transferred
 
@@ -132,4 +132,4 @@ def _at(known: State, conditions: Conditions, design) -> State:
     """Equilibrium under other conditions, straight from a known one."""
     (system,) = systems(under(known.line, conditions), design, (1.0,))
     start = transferred(known.system, known.equilibrium, system)
-    return State(known.line, conditions, system, equilibrium(system, start))
+    return State(known.line, conditions, system, near(system, start))

@@ -4,7 +4,6 @@ The state is x = (q without the angles of the hubs, v): those angles are cyclic,
 constant rate in equilibrium.
 """
 
-import itertools
 import logging
 from typing import NamedTuple
 
@@ -173,13 +172,70 @@ def equilibrium(
         linear = linearise(system, state)
         step = np.linalg.solve(np.eye(state.size) / length - linear.matrix, rate)
         trial_rate = _rate(system, state + step, mass)
-        change = float(np.max(np.abs(linear.output @ step) / _LARGEST_CHANGE))
+        change = _felt(linear, step)
         if change > 3.0 or not np.isfinite(trial_rate).all():
             length *= 0.25
             continue
         length *= min(max(1.0 / max(change, 1e-300), 0.5), 100.0)
         state, rate = state + step, trial_rate
-    residual = _unbalanced(rate)
+    return _ended(system, state, _unbalanced(rate), tolerance)
+
+
+def corrected(
+    system: System, start: np.ndarray, tolerance: float = 1e-9, max_iterations: int = 12
+) -> Equilibrium | None:
+    """Steady running near a start by Newton's method, or None if it does not get there.
+
+    Parameters
+    ----------
+    system, start, tolerance : as of `equilibrium`
+    max_iterations : Newton steps
+
+    Notes
+    -----
+    Deuflhard's natural monotonicity test (Newton Methods for Nonlinear Problems, 2004, ch. 3):
+    a damped step counts if the next simplified step, with the same matrix, is shorter. Steps are
+    measured by what the contacts feel, `_LARGEST_CHANGE`; residuals are no measure, for those of a
+    light rim and of the car differ by five decades.
+    """
+    state, mass = start.copy(), scipy.linalg.lu_factor(system.vehicle.mass)
+    rate = _rate(system, state, mass)
+    for _ in range(max_iterations):
+        if not np.isfinite(rate).all():
+            return None
+        linear = linearise(system, state)
+        factors = scipy.linalg.lu_factor(linear.matrix)
+        step = -scipy.linalg.lu_solve(factors, rate)
+        size = _felt(linear, step)
+        damping = min(1.0, 3.0 / max(size, 1e-300))
+        while True:
+            trial = _rate(system, state + damping * step, mass)
+            if np.isfinite(trial).all():
+                simplified = _felt(linear, scipy.linalg.lu_solve(factors, trial))
+                if simplified <= (1.0 - 0.5 * damping) * size or size < 1e-6:
+                    break
+            damping *= 0.5
+            if damping < 1e-2:
+                return None
+        state, rate = state + damping * step, trial
+        if size < 1e-3 and _unbalanced(rate) < tolerance:
+            found = _ended(system, state, _unbalanced(rate), tolerance)
+            return found if found.status == "converged" else None
+    return None
+
+
+def near(system: System, start: np.ndarray, tolerance: float = 1e-9) -> Equilibrium:
+    """Steady running from a start that is probably near: `corrected`, else `equilibrium`."""
+    return corrected(system, start, tolerance) or equilibrium(system, start, tolerance)
+
+
+def _felt(linear: Linearisation, step: np.ndarray) -> float:
+    """Largest change of a local variable of a contact in a step, in those of `_LARGEST_CHANGE`."""
+    return float(np.max(np.abs(linear.output @ step) / _LARGEST_CHANGE))
+
+
+def _ended(system: System, state: np.ndarray, residual: float, tolerance: float) -> Equilibrium:
+    """State at which a search has ended, with its contacts and its status."""
     _, results = wheel_forces.contact_forces(
         system.contacts, system.curvatures, system.local(state)
     )
@@ -249,45 +305,6 @@ def angle_of_attack(system: System, equilibrium_: Equilibrium) -> np.ndarray:
     """Yaw angle (2,) of front and rear axle against the track, rad; heading outwards positive."""
     k, motion = system.size, system.vehicle.motion_of
     return np.array([-motion[f"{axle}_axle"][5, :k] @ equilibrium_.state[:k] for axle in AXLES])
-
-
-def enter_curve(
-    systems: list[System], start: np.ndarray, tolerance: float = 1e-9, halvings: int = 5
-) -> Equilibrium:
-    """Equilibrium on the last of several systems, followed through them from the first one's.
-
-    Parameters
-    ----------
-    systems : the vehicle on tracks of growing curvature, from straight to the curve wanted
-    start : state on the first of them
-    tolerance : of the last, as in `equilibrium`
-    halvings : of a step from one track to the next that loses the equilibrium, at most
-    """
-    state = start
-    for known, system in itertools.pairwise(systems[:-1]):
-        state = _followed(known, state, system, halvings).state
-    found = equilibrium(systems[-1], state, tolerance)
-    if found.status == "converged" or len(systems) == 1:
-        return found
-    near = _followed(systems[-2], state, systems[-1], halvings)
-    return equilibrium(systems[-1], near.state, tolerance) if near.status == "converged" else found
-
-
-def _followed(known: System, state: np.ndarray, system: System, halvings: int) -> Equilibrium:
-    """Rough equilibrium on a track, from that on another; by way of tracks between if needed."""
-    found = equilibrium(system, state, 1e-3, 150)
-    if found.status == "converged" or halvings == 0:
-        return found
-    # Curvatures, offsets and loads of the frames are linear in the curvature and cant of the track.
-    between = system._replace(
-        curvatures=0.5 * (known.curvatures + system.curvatures),
-        load=0.5 * (known.load + system.load),
-    )
-    middle = _followed(known, state, between, halvings - 1)
-    if middle.status != "converged":
-        return found
-    nearer = _followed(between, middle.state, system, halvings - 1)
-    return nearer if nearer.status == "converged" else found
 
 
 def oscillations(eigenvalue: np.ndarray, limits: tuple[float, float]) -> np.ndarray:

@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie import track, wheel_forces
+from tramdva.bogie.curve_following import enter_curve
 from tramdva.bogie.curving import (
     HUBS,
     Equilibrium,
     System,
-    enter_curve,
     equilibrium,
+    near,
     resting_start,
     system_on,
 )
@@ -102,13 +103,12 @@ class Running(NamedTuple):
     equilibrium: Equilibrium
 
 
-def run_through(line: BogieLine, curvature_steps: int) -> Running:
+def run_through(line: BogieLine) -> Running:
     """Bogie without absorbers, followed from rest on the straight track into the curve.
 
     Parameters
     ----------
     line : BogieLine
-    curvature_steps : tracks of growing curvature on the way
 
     Examples
     --------
@@ -120,7 +120,7 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     >>> from tramdva.bogie.published import paper_bogie
     >>> from tramdva.bogie.tram import run_through
     >>> line = paper_bogie(shift_step=1e-4, yaw_nodes=10, grid=(6, 6), cutoff_frequency=300.0)
-    >>> run = run_through(line, curvature_steps=4)
+    >>> run = run_through(line)
     >>> run.equilibrium.status
     'converged'
     >>> print(f"{sum(wheel_loads(run.equilibrium).values()) / 9.81 / 1e3:.1f} t")
@@ -139,10 +139,9 @@ def run_through(line: BogieLine, curvature_steps: int) -> Running:
     second_bending_rear: 53 Hz, grows: False
     second_bending_front: 58 Hz, grows: True
     """
-    shares = np.linspace(0.0, 1.0, curvature_steps + 1)
-    tracks = systems(line, None, shares)
-    straight = equilibrium(tracks[0], resting_start(tracks[0]))
-    return Running(tracks[0], straight, tracks[-1], enter_curve(tracks, straight.state))
+    straight, curve = systems(line, None, (0.0, 1.0))
+    resting = equilibrium(straight, resting_start(straight))
+    return Running(straight, resting, curve, enter_curve(straight, curve, resting.state))
 
 
 def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Running:
@@ -150,9 +149,9 @@ def changed(line: BogieLine, design: BogieAbsorber | None, known: Running) -> Ru
     straight, curve = systems(line, design, (0.0, 1.0))
     return Running(
         straight,
-        equilibrium(straight, transferred(known.straight, known.straight_equilibrium, straight)),
+        near(straight, transferred(known.straight, known.straight_equilibrium, straight)),
         curve,
-        equilibrium(curve, transferred(known.curve, known.equilibrium, curve)),
+        near(curve, transferred(known.curve, known.equilibrium, curve)),
     )
 
 

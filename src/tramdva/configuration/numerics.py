@@ -102,13 +102,12 @@ class ContactGeometryNumerics(Section):
 
 
 class BogieNumerics(Section):
-    """Resolution of contact patch and axle bridge, way into the curve."""
+    """Resolution of contact patch and axle bridge."""
 
     cells_along: Whole = quantity("cells of the contact patch along the rail", "-", 2, 100)
     strips: Whole = quantity("strips of the contact patch", "-", 2, 100)
     cutoff_frequency: Real = quantity("of the axle's elastic modes", "Hz", 50, 5e3)
     elements_per_section: Whole = quantity("beam elements per section of the axle", "-", 1, 50)
-    curvature_steps: Whole = quantity("tracks on the way into the curve", "-", 1, 200)
 
 
 class BogieModesNumerics(Section):

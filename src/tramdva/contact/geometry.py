@@ -328,7 +328,7 @@ def approximate_contact(table, shift, height, roll, yaw):
     value = w[0] * a + w[1] * b + w[2] * c + w[3] * d
     slope = 0.5 * (s * s * (b - a) + 2.0 * (t * s + 0.5) * (c - b) + t * t * (d - c)) / step
     bend = (s * (a - 2.0 * b + c) + t * (b - 2.0 * c + d)) / (step * step)
-    above = max(value - height, -FAR)
+    above = min(max(value - height, -FAR), FAR)  # farther apart there is no contact
     slope -= bend * above * slope / max(1.0 + slope * slope + above * bend, 0.5)
     return slope, position / (w[1] + w[2])
 

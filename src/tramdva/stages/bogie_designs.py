@@ -47,7 +47,7 @@ def compute(
     """
     study, numerics = cfg["study"], cfg["numerics"]
     lines = bogie_line(cfg, contact_geometry), quiet_bogie_line(cfg, contact_geometry)
-    operating, quiet = (run_through(line, numerics["curvature_steps"]) for line in lines)
+    operating, quiet = (run_through(line) for line in lines)
     own = lines[0].bogie.absorber
     c_T = design_axis(study["c_T"], numerics["c_T_points"], own.c_T)
     d_T = design_axis(study["d_T"], numerics["d_T_points"], own.d_T)

@@ -40,7 +40,7 @@ def compute(
             name: float(curving_equilibrium[name][row]) for name in ("c_T", "d_T")
         }
     line = quiet_bogie_line({**cfg, "bogie": bogie}, contact_geometry)
-    run = run_through(line, cfg["numerics"]["curvature_steps"])
+    run = run_through(line)
     design = getattr(line.bogie, "absorber", None)
     if design is not None:
         run = changed(line, design, run)

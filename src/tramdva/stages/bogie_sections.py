@@ -45,7 +45,7 @@ def known_runs(
     cfg: Mapping[str, Any], line: BogieLine, designs: Mapping[str, np.ndarray]
 ) -> list[Running]:
     """Equilibria of the designs in ``curving_equilibrium.nc``."""
-    none = run_through(line, cfg["numerics"]["curvature_steps"])
+    none = run_through(line)
     return [
         changed(line, absorber(line, c_T, d_T), none)
         for c_T, d_T in zip(designs["c_T"], designs["d_T"], strict=True)

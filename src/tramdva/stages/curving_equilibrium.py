@@ -47,7 +47,7 @@ def compute(
     Variables of ``curving_equilibrium.nc``.
     """
     line = bogie_line(cfg, contact_geometry)
-    none = run_through(line, cfg["numerics"]["curvature_steps"])
+    none = run_through(line)
     designs = _designs(line, none, cfg, absorber_tuning)
     runs = [changed(line, absorber(line, *design), none) for design in designs]
     results = np.array([run.equilibrium.results for run in runs])

@@ -58,7 +58,7 @@ def compute(
     line = quiet_bogie_line(
         {**cfg, "bogie": cfg["bogie"] | {"absorber": absorber}}, contact_geometry
     )
-    nominal = as_configured(line, run_through(line, numerics["curvature_steps"]))
+    nominal = as_configured(line, run_through(line))
     found = [_case(cfg, nominal, conditions) for conditions in conditions_of(shares[chosen])]
     return {
         "case": chosen.astype(float),

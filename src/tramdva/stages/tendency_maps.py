@@ -50,7 +50,7 @@ def compute(
         for linear in bogie_linearisation
     }
     line = quiet_bogie_line(cfg, contact_geometry)
-    known = as_configured(line, run_through(line, numerics["curvature_steps"]))
+    known = as_configured(line, run_through(line))
     frequency = np.linspace(
         study["frequency"]["min"], study["frequency"]["max"], numerics["frequency_points"]
     )
