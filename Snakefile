@@ -14,6 +14,7 @@ STAGES = {
     "contact_geometry": ([], "contact tables of the profiles"),
     "curving_equilibrium": (["contact_geometry", "absorber_tuning"], "steady curving of the bogie"),
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
+    "growth_band": (["contact_geometry"], "how sure the growth rate is"),
     "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
     "evolution_tendency": (["bogie_linearisation", "wear"], "evolution tendency (figure 10)"),
     "tendency_maps": (
@@ -74,6 +75,7 @@ FIGURES = {
     "fig09_curve_entry": (["curve_entry", "bogie_modes"], "Bogie", "Figure 9", PICTURE),
     "bogie_mode_shapes": (["bogie_modes"], "Bogie", "Mode shapes", PICTURE),
     "bogie_stability": (["bogie_modes"], "Bogie", "Stability of the bogie", PICTURE),
+    "growth_band_chart": (["growth_band"], "Bogie", "How sure the growth rate is", PICTURE),
     "campbell_chart": (["bogie_modes"], "Bogie", "Orders over speed", PICTURE),
     "fig10_evolution_tendency": (["evolution_tendency"], "Wheel wear", "Figure 10", PICTURE),
     "worn_wheels": (

@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 from tramdva.bogie.curving import (
     Linearisation,
     System,
-    equilibrium,
     linearise,
+    near,
     oscillations,
     with_friction_decrease,
 )
@@ -168,7 +168,7 @@ def critical_of(linear: Linearisation, limits: tuple[float, float]) -> Critical:
 def at_friction(system: System, state: np.ndarray, B: float) -> Linearisation:
     """Linearise at the equilibrium for another friction decrease B (s/m), from a known state."""
     other = with_friction_decrease(system, B)
-    return linearise(other, equilibrium(other, state).state)
+    return linearise(other, near(other, state).state)
 
 
 def critical_friction_decrease(

@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.contact.measured_profile import measured_profile
-from tramdva.contact.parameters import ContactGeometry
-from tramdva.contact.tables import TABLE_FIELDS, yaw_reach, zone_tables
+from tramdva.contact.tables import TABLE_FIELDS, yaw_reach
+from tramdva.stages.contact_sections import line_tables
 from tramdva.variables.contact_geometry import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
@@ -24,22 +23,11 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
     cfg : values of the stage
     file_of : where a file lies that the configuration names: a measured profile
     """
-    profiles, bogie = {}, cfg["bogie"]
-    for kind in ("wheel", "rail"):
-        given = cfg["contact_geometry"][kind]
-        if given["measured"]:
-            path = file_of(given["measured"])
-            profiles[kind] = measured_profile(path, kind, given["measured_noise"])
-    tables = zone_tables(
-        ContactGeometry.model_validate(cfg["contact_geometry"]),
-        bogie["wheel"]["radius"],
-        cfg["numerics"]["shift_step"],
-        cfg["numerics"]["yaw_nodes"],
-        yaw_limit=yaw_reach(
-            _sharpest_curve(cfg), bogie["half_wheelbase"], bogie["wheel"]["half_distance"]
-        ),
-        **profiles,
+    bogie = cfg["bogie"]
+    reach = yaw_reach(
+        _sharpest_curve(cfg), bogie["half_wheelbase"], bogie["wheel"]["half_distance"]
     )
+    tables = line_tables(cfg, reach, file_of)
     return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
 
 
