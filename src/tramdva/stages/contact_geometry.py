@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.contact.measured_profile import measured_profile
-from tramdva.contact.parameters import ContactGeometry
+from tramdva.contact.parameters import ContactProfiles
 from tramdva.contact.tables import TABLE_FIELDS, yaw_reach, zone_tables
 from tramdva.variables.contact_geometry import VARIABLES
 
@@ -31,7 +31,7 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
             path = file_of(given["measured"])
             profiles[kind] = measured_profile(path, kind, given["measured_noise"])
     tables = zone_tables(
-        ContactGeometry.model_validate(cfg["contact_geometry"]),
+        ContactProfiles.model_validate(cfg["contact_geometry"]),
         bogie["wheel"]["radius"],
         cfg["numerics"]["shift_step"],
         cfg["numerics"]["yaw_nodes"],
