@@ -153,8 +153,15 @@ def contacts():
     """Rows of time per contact."""
     table = geometry.contact_tables(profiles.tram_wheel(), profiles.grooved_rail(), 0.3)[1]
     memory = table.coefficients.nbytes / 1e6
-    for cells, strips in ((10, 10), (12, 11), (20, 20)):
-        law = patch.contact_law(0.35, 0.36, 0.7, cells_along=cells, strips=strips)
+    ways = (
+        (10, 10, "fastsim"),
+        (12, 11, "fastsim"),
+        (12, 12, "fastsim"),
+        (12, 12, "half_space"),
+        (20, 20, "fastsim"),
+    )
+    for cells, strips, method in ways:
+        law = patch.contact_law(0.35, 0.36, 0.7, cells_along=cells, strips=strips, method=method)
         scratch = patch.contact_workspace(law)
 
         def excess(z, law=law, scratch=scratch):
@@ -167,7 +174,8 @@ def contacts():
         height = brentq(excess, -1e-3, 3e-3)
         ours = best(lambda n, a=(table, law, height, *scratch): _contacts(n, *a))
         angle = np.degrees(scratch[2][patch.CONTACT_ANGLE])
-        print(f"contact {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us (43 kN at {angle:.0f} deg)")
+        name = f"{cells:2d} x {strips:2d}" if method == "fastsim" else "  table"
+        print(f"contact {name}  {ours * 1e6:6.2f} us (43 kN at {angle:.0f} deg)")
         away = best(lambda n, a=(table, law, height + 1e-3, *scratch): _contacts(n, *a))
         print(f"        lifted off {away * 1e6:6.2f} us")
     rows = np.zeros((geometry.WINDOW, 8))

@@ -114,6 +114,9 @@ USERS = {
         "robust_tuning",
     ],
     "contact_geometry": ["contact_geometry", *BOGIE, *ROUGH_BOGIE],
+    # Tables are of the profiles alone.
+    "contact_geometry.material": [*BOGIE, *ROUGH_BOGIE],
+    "contact_geometry.creep_law": [*BOGIE, *ROUGH_BOGIE],
     "out_of_roundness": ["bogie_simulation"],
     "out_of_roundness.wheels": [
         "bogie_simulation",

@@ -5,11 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from scipy.linalg import eigh
 
 from tramdva.bogie import axle
+from tramdva.bogie.parameters import Bogie
 
-REFERENCE = Path(__file__).parents[1] / "reference/bogie/axle_exudyn.csv"
+REFERENCE = Path(__file__).parents[1] / "reference/bogie"
 LENGTH, EI, MASS = 1.2, 2.0e5, 330.0
 
 
@@ -54,8 +56,13 @@ def test_torsion_and_axial_vibration_of_a_free_rod():
 
 
 @pytest.fixture(scope="module")
-def on_springs(bogie):
-    """Full axle bridge on its primary springs, fixed to the ground: stiffness and mass."""
+def on_springs():
+    """Full axle bridge on its primary springs, fixed to the ground; its half length; reference.
+
+    The axle of `vehicle_heavy_arms.yaml`; `test_vehicle_reference.py` has others in the vehicle.
+    """
+    values = yaml.safe_load((REFERENCE / "vehicle_heavy_arms.yaml").read_text(encoding="utf-8"))
+    bogie = Bogie.model_validate(values["bogie"])
     flexible = axle.flexible_axle(bogie, 1e9, 8)
     stiffness, primary = flexible.stiffness.copy(), bogie.primary
     s = primary.stiffness
@@ -63,27 +70,27 @@ def on_springs(bogie):
     for side in (-1.0, 1.0):
         motion = flexible.motion(side * primary.lateral_position, primary.height)
         stiffness += motion.T @ diagonal @ motion
-    return flexible, stiffness
-
-
-def reference(kind: str) -> np.ndarray:
-    with REFERENCE.open(encoding="utf-8") as file:
-        rows = [row[1:] for row in csv.reader(file) if row[0] == kind]
-    return np.array(rows, dtype=float)
+    with (REFERENCE / "axle_exudyn.csv").open(encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    expected = {
+        kind: np.array([row[1:] for row in rows if row[0] == kind], dtype=float)
+        for kind in ("mode", "static")
+    }
+    return flexible, stiffness, bogie.axle.half_length, expected
 
 
 def test_frequencies_agree_with_exudyn(on_springs):
-    flexible, stiffness = on_springs
+    flexible, stiffness, _, expected = on_springs
     found = np.sqrt(eigh(stiffness, flexible.mass, eigvals_only=True))[:14] / (2.0 * np.pi)
     # Exudyn's linear shape functions with 60 elements per section leave 0.1 %.
-    np.testing.assert_allclose(found, reference("mode")[:, 0], rtol=2e-3)
+    np.testing.assert_allclose(found, expected["mode"][:, 0], rtol=2e-3)
 
 
 def test_mode_shapes_agree_with_exudyn(on_springs):
-    flexible, stiffness = on_springs
+    flexible, stiffness, half, reference = on_springs
     _, vectors = eigh(stiffness, flexible.mass)
-    ends = [flexible.motion(y, flexible.beam_height)[:3] for y in (0.6, -0.6)]
-    for mode, expected in enumerate(reference("mode")[:8, 1:]):
+    ends = [flexible.motion(y, flexible.beam_height)[:3] for y in (half, -half)]
+    for mode, expected in enumerate(reference["mode"][:8, 1:]):
         x, y, z = np.array([end @ vectors[:, mode] for end in ends]).T
         found = np.array([y, -x, z]).T.ravel()  # the axes of the reference
         alike = abs(found @ expected) / np.linalg.norm(found) / np.linalg.norm(expected)
@@ -92,16 +99,16 @@ def test_mode_shapes_agree_with_exudyn(on_springs):
 
 
 def test_static_response_agrees_with_exudyn(on_springs):
-    flexible, stiffness = on_springs
+    flexible, stiffness, _, expected = on_springs
     wheels = [flexible.motion(y, flexible.height) for y in (0.75, -0.75)]
     moved = np.linalg.solve(stiffness, 1000.0 * wheels[0][2])
     x, y, z = np.array([wheel[:3] @ moved for wheel in wheels]).T
     found = np.array([y, -x, z]).T.ravel()
-    np.testing.assert_allclose(found, reference("static")[0, 1:], rtol=1e-4, atol=1e-9)
+    np.testing.assert_allclose(found, expected["static"][0, 1:], rtol=1e-4, atol=1e-9)
 
 
 def test_reduced_axle_keeps_rigid_body_and_modes(bogie):
-    full, reduced = (axle.flexible_axle(bogie, cutoff, 4) for cutoff in (1e9, 800.0))
+    full, reduced = (axle.flexible_axle(bogie, cutoff, 4) for cutoff in (1e9, 2000.0))
     assert reduced.frequency.size >= 12
     np.testing.assert_allclose(reduced.frequency, full.frequency[: reduced.frequency.size])
     np.testing.assert_allclose(reduced.mass[:6, :6], full.mass[:6, :6], rtol=1e-12)

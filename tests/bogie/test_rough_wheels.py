@@ -19,6 +19,7 @@ from tramdva.bogie.rough_wheels import (
 from tramdva.bogie.stored import stored_bogie, variables
 from tramdva.bogie.tram import absorber, changed, transferred
 from tramdva.contact import fastsim, patch
+from tramdva.contact.patch import METHODS
 from tramdva.evolution.out_of_roundness import radius_deviation
 from tramdva.evolution.tendency import (
     Wearing,
@@ -224,7 +225,10 @@ def test_file_holds_the_whole_linearised_bogie(stored, rough, quiet):
     )
     np.testing.assert_array_equal(response, expected)
     assert back.places.spin_rate == pytest.approx(V / R0)
-    assert back.law.friction == quiet["paper"].curve.contacts.law.friction
+    law = quiet["paper"].curve.contacts.law
+    assert back.law.friction == law.friction
+    assert back.law.method == law.method == METHODS["half_space"]
+    np.testing.assert_array_equal(back.law.creep_table.linear, law.creep_table.linear)
 
 
 def test_wheels_in_phase_matter_at_the_inner_wheel(rough, quiet):

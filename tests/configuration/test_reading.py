@@ -67,6 +67,11 @@ WRONG_LINES = {
     ),
     "list": ("wheelset: {c_A: [5.2e7]}", f"wheelset.c_A = [52000000.0]: {C_A}"),
     "map": ("wheelset: {c_A: {value: 5}}", f'wheelset.c_A = {{"value": 5}}: {C_A}'),
+    "word that is none of those allowed": (
+        "contact_geometry: {creep_law: kalker}",
+        'contact_geometry.creep_law = "kalker": must be creep forces by half_space (table of the '
+        "elastic half-space) or fastsim",
+    ),
     "sign of the angle": (
         "curve: {gamma: 0.04}",
         "curve.gamma = 0.04: must be between -0.2 and -0.001 rad (angle of attack, negative)",

@@ -7,10 +7,11 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from tramdva.contact import geometry, hertz, patch, profiles
+from tramdva.contact import creep_table, geometry, hertz, patch, profiles
 
 RADIUS, SPEED = 0.3, 4.0
 LAW = patch.contact_law(0.35, 0.36, 0.7)
+LAWS = {method: patch.contact_law(0.35, 0.36, 0.7, method=method) for method in patch.METHODS}
 SCRATCH = patch.contact_workspace(LAW)
 
 
@@ -71,16 +72,16 @@ def test_wheel_steered_outwards_is_pushed_inwards_and_touches_ahead(tram_tables)
 @settings(max_examples=40, deadline=None)
 @given(
     st.floats(-0.6e-3, 1.0e-3), st.floats(-0.02, 0.02), st.floats(-0.04, 0.04),
-    st.floats(-0.3, 0.3), st.sampled_from([0, 1]),
+    st.floats(-0.3, 0.3), st.sampled_from([0, 1]), st.sampled_from(list(LAWS)),
 )  # fmt: skip
-def test_left_and_right_wheel_are_mirror_images(tram_tables, lateral, roll, yaw, v_y, zone):
-    table = tram_tables[zone]
+def test_left_and_right_wheel_are_mirror_images(tram_tables, lateral, roll, yaw, v_y, zone, method):
+    table, law = tram_tables[zone], LAWS[method]
     roll *= 0.5
     right = contact(
-        table, -1.0, (-lateral, 0.3e-3), (roll, yaw), (3.9, v_y, 0.05), (0.1, 13.0, 0.2)
+        table, -1.0, (-lateral, 0.3e-3), (roll, yaw), (3.9, v_y, 0.05), (0.1, 13.0, 0.2), law=law
     )
     left = contact(
-        table, 1.0, (lateral, 0.3e-3), (-roll, -yaw), (3.9, -v_y, 0.05), (-0.1, 13.0, -0.2)
+        table, 1.0, (lateral, 0.3e-3), (-roll, -yaw), (3.9, -v_y, 0.05), (-0.1, 13.0, -0.2), law=law
     )
     scale = 1e-9 * (1.0 + np.abs(right[0]).max())
     assert_allclose(left[0], right[0] * [1, -1, 1], atol=scale)
@@ -88,12 +89,18 @@ def test_left_and_right_wheel_are_mirror_images(tram_tables, lateral, roll, yaw,
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.floats(-0.5e-3, 0.4e-3), st.floats(-0.03, 0.03), st.floats(-0.2, 0.2))
-def test_power_on_the_wheel_is_normal_power_and_friction_loss(tram_tables, lateral, yaw, v_y):
+@given(
+    st.floats(-0.5e-3, 0.4e-3), st.floats(-0.03, 0.03), st.floats(-0.2, 0.2),
+    st.sampled_from(["fastsim", "half_space"]),
+)  # fmt: skip
+def test_power_on_the_wheel_is_normal_power_and_friction_loss(
+    tram_tables, lateral, yaw, v_y, method
+):
     velocity, rotation = np.array([4.1, v_y, -0.02]), np.array([0.05, 13.2, 0.1])
     force, moment, found = contact(
-        tram_tables[1], -1.0, (-lateral, 0.2e-3), (0.001, yaw), tuple(velocity), tuple(rotation)
-    )
+        tram_tables[1], -1.0, (-lateral, 0.2e-3), (0.001, yaw), tuple(velocity), tuple(rotation),
+        law=LAWS[method],
+    )  # fmt: skip
     delta = found[patch.CONTACT_ANGLE]
     slip = SPEED * np.array(
         [found[i] for i in
@@ -161,6 +168,34 @@ def test_polach_has_the_same_interface(tram_tables):
     assert_allclose(polach[patch.LATERAL_FORCE], fast[patch.LATERAL_FORCE], rtol=0.05)
     with pytest.raises(ValueError, match="kalker"):
         patch.contact_law(0.35, 0.36, 0.7, method="kalker")
+
+
+def test_half_space_has_the_same_interface(tram_tables):
+    """On the tread, whose patch is hardly turned: FASTSIM stands some per cent beside it."""
+    position = loaded(tram_tables[0], 35e3)
+    for v_y, difference in ((2e-3, 0.05), (0.16, 0.01)):
+        motion = {"position": position, "velocity": (SPEED, v_y, 0.0)}
+        fast = contact(tram_tables[0], **motion)[2]
+        exact = contact(tram_tables[0], law=LAWS["half_space"], **motion)[2]
+        assert_allclose(
+            exact[patch.LATERAL_FORCE], fast[patch.LATERAL_FORCE],
+            atol=difference * fast[patch.FRICTION] * fast[patch.NORMAL_FORCE],
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize(("corner", "status"), [(2.5e-3, patch.CONTACT), (0.8e-3, patch.INVALID)])
+def test_a_patch_beyond_the_table_of_creep_forces_is_a_status(corner, status):
+    """A gauge corner that is almost an edge: the patch is long and narrow."""
+    _, flange = geometry.contact_tables(
+        profiles.tram_wheel(), profiles.grooved_rail(corner_radius=corner), RADIUS,
+        shift_range=(0.0, 6e-3), roll_limit=1e-3, yaw_limit=1e-3, yaw_nodes=2,
+    )  # fmt: skip
+    position = loaded(flange, 35e3, lateral=-3e-3)
+    found = contact(flange, position=position, law=LAWS["half_space"])[2]
+    ratio = found[patch.SEMI_AXIS_LONGITUDINAL] / found[patch.SEMI_AXIS_LATERAL]
+    assert (ratio > creep_table.LARGEST_RATIO) == (status == patch.INVALID)
+    assert found[patch.STATUS] == status
+    assert contact(flange, position=position)[2][patch.STATUS] == patch.CONTACT  # FASTSIM
 
 
 def test_failures_are_statuses(tram_tables):

@@ -19,7 +19,15 @@ from tramdva.bogie import wheel_forces
 from tramdva.bogie.stored import stored_bogie
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import USES, used_values
-from tramdva.contact import creep_force, geometry, hertz, kalker, polach, profiles
+from tramdva.contact import (
+    creep_force,
+    creep_table,
+    geometry,
+    hertz,
+    kalker,
+    polach,
+    profiles,
+)
 from tramdva.contact.tables import stored_tables
 from tramdva.stages import bogie_linearisation, bogie_simulation, contact_geometry, wear
 from tramdva.wear.chart import METHODS
@@ -99,6 +107,9 @@ def of_the_contact() -> Values:
     for creepages in ((1e-3, 0.0, 0.0), (0.0, 5e-2, 0.5), (0.0, 0.0, 0.0)):
         found[f"polach {creepages}"] = polach.polach_forces(
             5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10, 1.0, 1.0
+        )
+        found[f"half_space {creepages}"] = creep_table.half_space_forces(
+            5e-3, 3e-3, 35e3, 0.3, *creepages, 8.2e10, creep_table.creep_table(0.27)
         )
     return found
 

@@ -13,7 +13,7 @@ import scipy  # its parts load when they are used: many short jobs need none
 from tramdva.bogie import track, wheel_forces
 from tramdva.bogie.names import AXLES, SIDE, WHEELS
 from tramdva.bogie.vehicle import Vehicle, frame_loads
-from tramdva.contact import patch
+from tramdva.contact import creep_table, patch
 
 logger = logging.getLogger(__name__)
 
@@ -245,8 +245,10 @@ def _ended(system: System, state: np.ndarray, residual: float, tolerance: float)
     if status == "outside_profile":
         needed, reach = _needed_yaw(system, state), _table_yaw(system)
         logger.info("a wheel is outside its contact table: yaw %.4f rad of %.4f rad", needed, reach)
-        if needed <= reach:  # then it is the lateral shift or the roll
+        if needed <= reach:  # then it is the lateral shift, the roll or the patch
             needed = np.nan
+        if (ratio := _longest_patch(system, results)) > creep_table.LARGEST_RATIO:
+            logger.info("a contact patch is longer than the creep table knows: ratio %.0f", ratio)
         # Numbers held at the end of a table are no results.
         outside = results[..., patch.STATUS] == patch.INVALID
         results[..., : patch.RESULTS][outside] = np.nan
@@ -262,6 +264,15 @@ def _table_yaw(system: System) -> float:
 def _needed_yaw(system: System, state: np.ndarray) -> float:
     """Largest yaw angle in rad of a wheel against its rail in a state."""
     return max(wheel_forces.headings(system.contacts, system.curvatures, system.local(state)))
+
+
+def _longest_patch(system: System, results: np.ndarray) -> float:
+    """Largest ratio of semi-axes of the patches where a table gives their forces, else zero."""
+    a, b = (results[..., k] for k in (patch.SEMI_AXIS_LONGITUDINAL, patch.SEMI_AXIS_LATERAL))
+    touching = (a > 0.0) & (b > 0.0)
+    if system.contacts.law.method != patch.HALF_SPACE or not touching.any():
+        return 0.0
+    return float(np.maximum(a[touching] / b[touching], b[touching] / a[touching]).max())
 
 
 def _rate(system: System, state: np.ndarray, mass) -> np.ndarray:

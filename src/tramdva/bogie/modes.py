@@ -26,9 +26,11 @@ NAME_OF_CLASS = {
     "car_support": "car_body",
     "absorber": "absorber",
 }
+BENDING = ("symmetric", "antisymmetric")
 # The first bending modes are the two of most symmetric bending below this frequency; they bend the
 # primary suspension more than the beam, so that their own class would not name them.
 FIRST_BENDING_BELOW = 40.0  # Hz
+MOSTLY = 0.5  # a bending mode of its own class has more than this share of its strain energy there
 OWN_AXLE = 0.8  # a mode with more of its class's strain energy at one axle is that axle's
 ALIKE = 0.5  # axles that are less correlated do not move in or out of phase
 
@@ -92,10 +94,16 @@ def strain_energy_share(system: System, shape: np.ndarray) -> np.ndarray:
 def _names(
     system: System, shape: np.ndarray, share: np.ndarray, frequency: np.ndarray
 ) -> tuple[str, ...]:
-    """Name modes by the class of largest strain energy in the whole vehicle, and by axle."""
-    kinds = share.sum(axis=2).argmax(axis=1)
+    """Name modes by the class of largest strain energy in the whole vehicle, and by axle.
+
+    Second and third bending must have most of it: a wheelset that moves on its springs bends, too.
+    """
+    energy = share.sum(axis=2)
+    bending, other = (ENERGY_CLASSES.index(f"{kind}_bending") for kind in BENDING)
+    partly = energy[:, [bending, other]] <= MOSTLY
+    energy[:, [bending, other]] = np.where(partly, 0.0, energy[:, [bending, other]])
+    kinds = energy.argmax(axis=1)
     words = [NAME_OF_CLASS[ENERGY_CLASSES[kind]] for kind in kinds]
-    bending = ENERGY_CLASSES.index("symmetric_bending")
     low = np.flatnonzero(frequency < FIRST_BENDING_BELOW)
     for mode in low[np.argsort(share[low, bending].sum(axis=1))[-len(AXLES) :]]:
         kinds[mode], words[mode] = bending, "first_bending"

@@ -17,9 +17,9 @@ TRACK = {
     "gravity": 9.81,
 }
 BOGIE = {
-    "half_wheelbase": 0.85,
+    "half_wheelbase": 0.869,
     "car_body": {
-        "mass": 12200,
+        "mass": 11000,
         "roll_inertia": 9000,
         "pitch_inertia": 20000,
         "yaw_inertia": 20000,
@@ -34,7 +34,7 @@ BOGIE = {
         "yaw_damping": 40000.0,
     },
     "frame": {
-        "mass": 1600,
+        "mass": 2330,
         "roll_inertia": 700,
         "pitch_inertia": 900,
         "yaw_inertia": 1500,
@@ -47,29 +47,29 @@ BOGIE = {
         "height": 0.55,
     },
     "primary": {
-        "stiffness": {"longitudinal": 20000000.0, "lateral": 8200000.0, "vertical": 1200000.0},
-        "damping": {"longitudinal": 17000.0, "lateral": 8600, "vertical": 6900},
+        "stiffness": {"longitudinal": 20000000.0, "lateral": 1990000.0, "vertical": 1200000.0},
+        "damping": {"longitudinal": 17000.0, "lateral": 3500, "vertical": 2050},
         "lateral_position": 0.6,
         "height": 0.36,
         "pitch_stiffness": 500000.0,
         "pitch_damping": 500,
     },
     "axle": {
-        "half_length": 0.6,
-        "drop": 0.17,
-        "middle_half_length": 0.25,
-        "middle": {"vertical_bending_stiffness": 115000.0, "mass_per_length": 380},
-        "outer": {"vertical_bending_stiffness": 200000.0, "mass_per_length": 330},
+        "half_length": 0.659,
+        "drop": 0.22,
+        "middle_half_length": 0.29853,
+        "middle": {"vertical_bending_stiffness": 317000.0, "mass_per_length": 450},
+        "outer": {"vertical_bending_stiffness": 299000.0, "mass_per_length": 59},
         "lateral_bending_stiffness": 5000000.0,
         "torsional_stiffness": 1200000.0,
         "axial_stiffness": 1000000000.0,
         "polar_inertia_per_length": 0.6,
-        "damping_ratio": 0.036630,
+        "damping_ratio": 0.045459,
         "damping_reference_frequency": 60,
         "damping_exponent": 0.7,
     },
     "stub": {
-        "mass": 124,
+        "mass": 90.3,
         "roll_inertia": 0.8,
         "pitch_inertia": 2.0,
         "yaw_inertia": 0.8,
@@ -79,14 +79,14 @@ BOGIE = {
     "wheel": {
         "radius": 0.3,
         "half_distance": 0.75,
-        "hub": {"mass": 45, "diametral_inertia": 0.7, "spin_inertia": 1.0},
+        "hub": {"mass": 45, "diametral_inertia": 1.3, "spin_inertia": 1.0},
         "rim": {"mass": 125, "diametral_inertia": 5.0, "spin_inertia": 9.5},
         "layer": {
             "radial_stiffness": 400000000.0,
-            "axial_stiffness": 400000000.0,
+            "axial_stiffness": 109000000.0,
             "radial_damping": 10500,
             "axial_damping": 10500,
-            "tilting_stiffness": 25000000.0,
+            "tilting_stiffness": 50000000.0,
             "torsional_stiffness": 25000000.0,
             "tilting_damping": 440,
             "torsional_damping": 440,
@@ -96,7 +96,7 @@ BOGIE = {
     "absorber": {
         "motion": "rotation",
         "direction": {"x": 1, "y": 0, "z": 0},
-        "lateral_position": 0.6,
+        "lateral_position": 0.50413,
         "height": 0.22,
         "I_T": 2,
         "c_T": 174000.0,
@@ -121,10 +121,11 @@ CONTACT_GEOMETRY = {
         "corner_radius": 0.013,
         "corner_start": 0.015,
         "field_half_width": 0.028,
-        "lateral_position": -0.004,
+        "lateral_position": -0.00261,
     },
     "material": {"youngs_modulus": 206000000000.0, "poisson_ratio": 0.27},
     "gap_scale": 8e-06,
+    "creep_law": "half_space",
 }
 
 
@@ -132,7 +133,7 @@ def paper_bogie(
     shift_step: float = 2.5e-5,
     yaw_nodes: int = 24,
     grid: tuple[int, int] = (12, 12),
-    cutoff_frequency: float = 800.0,
+    cutoff_frequency: float = 2000.0,
 ) -> BogieLine:
     """Bogie of Table 3 on wheels and rails of the paper's line, in its curve.
 

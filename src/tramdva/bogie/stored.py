@@ -9,9 +9,10 @@ from tramdva.bogie import wheel_forces
 from tramdva.bogie.integration import ModalContacts
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.rough_wheels import RoughBogie
-from tramdva.contact import fastsim, patch
+from tramdva.contact import creep_table, fastsim, patch
 from tramdva.contact.tables import zone_names
 
+CREEP_LAWS = tuple(patch.METHODS)  # by their number
 _PLACES = ("lateral_position", "tape_circle", "rail", "speed")
 
 
@@ -45,6 +46,8 @@ def variables(
         "hertz_table": law.hertz_table,
         "kalker_table": law.kalker_table,
         "patch_cells": np.array(grid, float),
+        "creep_law": np.array(CREEP_LAWS[law.method]),
+        "creep_linear_table": law.creep_table.linear,
         "rolling_speed": bogie.rolling_speed,
         "curvature": bogie.curvatures,
         "eigenvalue_real": bogie.eigenvalue.real,
@@ -76,6 +79,8 @@ def stored_bogie(values: Mapping[str, np.ndarray]) -> StoredBogie:
         float(values["shear_modulus"]),
         tuple(map(float, values["friction"])),
         fastsim.patch_grid(*map(int, values["patch_cells"])),
+        creep_table.with_linear(values["creep_linear_table"]),
+        method=patch.METHODS[str(values["creep_law"])],
     )
     bogie = RoughBogie(
         values["eigenvalue_real"] + 1j * values["eigenvalue_imag"],

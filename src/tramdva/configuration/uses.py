@@ -8,6 +8,7 @@ from typing import Any
 from tramdva.bogie.parameters import BareBogie, BogieAbsorber
 from tramdva.configuration import measured_files
 from tramdva.configuration.reading import Configuration
+from tramdva.contact.parameters import ContactProfiles
 
 _FORCE = ("curve", "creep_force")
 _WHEELSET = ("wheelset",)
@@ -100,7 +101,7 @@ USES: dict[str, tuple[str, ...]] = {
         "numerics.frequency_response",
     ),
     "contact_geometry": (
-        "contact_geometry",
+        *(f"contact_geometry.{name}" for name in ContactProfiles.model_fields),
         "bogie.wheel.radius",
         "bogie.wheel.half_distance",
         "bogie.half_wheelbase",

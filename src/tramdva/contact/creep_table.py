@@ -3,7 +3,8 @@
 The table holds force over mu N and moment over mu N sqrt(a b) of steady rolling as a tensor of
 uniform cubic B-splines over
 
-* ln(a/b) between -ln 16 and ln 16; beyond, the curves keep the shape of the end,
+* ln(a/b) between -ln 16 and ln 16; beyond, the curves keep the shape of the end, to
+  LARGEST_RATIO with the errors of `docs/contact.md`; further `holds_for` says no,
 * 2/pi atan(w_s / 1.5), how much spin there is,
 * ``2/pi atan(w / |(1.5, w_s)|)``, how much creepage beside it; 1 is full sliding,
 * ``atan2(|w_x|, w_y) / pi``, its direction
@@ -17,6 +18,7 @@ C11 and C22, in proportion to Kalker's table.
 Axes, signs and units as in `fastsim`.
 """
 
+import functools
 import hashlib
 from pathlib import Path
 from typing import NamedTuple
@@ -32,6 +34,7 @@ FILE = Path(__file__).with_name("creep_table.npz")
 DIGEST = "74f848cc4a0074d41da8"
 POISSON_RATIO = 0.28
 LOG_RATIO_END = float(np.log(16.0))
+LARGEST_RATIO = 32.0  # of the semi-axes, either way
 SCALE = 1.5  # reduced creepage in the middle of its coordinate
 COMPONENTS = 4  # two forces, the moment, and a zero that fills a vector register
 FAST = {"contract", "reassoc", "nsz", "arcp"}
@@ -67,13 +70,31 @@ def creep_table(poisson_ratio: float = POISSON_RATIO, file: Path = FILE) -> Cree
     TableFileError
         If the numbers are not those of `DIGEST`.
     """
+    coefficients, inverse = stored_numbers(file)
+    return CreepTable(coefficients, linear_table(inverse, poisson_ratio))
+
+
+def with_linear(linear: np.ndarray) -> CreepTable:
+    """Table with the linear theory of another one: the file alone is read."""
+    return CreepTable(stored_numbers(FILE)[0], linear)
+
+
+@functools.cache
+def stored_numbers(file: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients, padded, and 1/C11 and 1/C22 of the file; nobody may write to them.
+
+    Raises
+    ------
+    TableFileError
+        If the numbers are not those of `DIGEST`.
+    """
     with np.load(file) as stored:
         coefficients, inverse = stored["coefficients"], stored["inverse_linear"]
     if (found := digest(coefficients, inverse)) != DIGEST:
         raise TableFileError(f"{file.name} has the digest {found}, expected {DIGEST}")
     padded = np.zeros((*coefficients.shape[:4], COMPONENTS))
     padded[..., :3] = coefficients
-    return CreepTable(padded, linear_table(inverse, poisson_ratio))
+    return padded, inverse
 
 
 def digest(coefficients: np.ndarray, inverse_linear: np.ndarray) -> str:
@@ -116,6 +137,13 @@ def linear_table(inverse: np.ndarray, poisson_ratio: float) -> np.ndarray:
 def inverse_kalker(table: np.ndarray, log_ratio: float) -> np.ndarray:
     """1/C11 and 1/C22 of a table of `kalker` at ln(a/b)."""
     return 1.0 / np.array(kalker.creep_coefficients(table, float(np.exp(log_ratio)))[:2])
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def holds_for(semi_axis_longitudinal, semi_axis_lateral):
+    """Whether the ratio of semi-axes is one for which the errors of the table are known."""
+    a, b = semi_axis_longitudinal, semi_axis_lateral
+    return a <= LARGEST_RATIO * b and b <= LARGEST_RATIO * a
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from tramdva.quantities import Real, Section, measured_file, quantity
 
 
@@ -55,10 +57,19 @@ class ContactMaterial(Section):
     poisson_ratio: Real = quantity("Poisson's ratio", "-", 0, 0.49, "ASSUME")
 
 
-class ContactGeometry(Section):
-    """Profiles and material of wheel and rail."""
+class ContactProfiles(Section):
+    """Profiles of wheel and rail."""
 
     wheel: WheelProfile
     rail: RailProfile
-    material: ContactMaterial
     gap_scale: Real = quantity("gap over which contact is averaged", "m", 1e-7, 1e-4, "ASSUME")
+
+
+class ContactGeometry(ContactProfiles):
+    """Profiles and material of wheel and rail, and the law of their creep forces."""
+
+    material: ContactMaterial
+    creep_law: str = Field(
+        pattern="^(half_space|fastsim)$",
+        description="creep forces by half_space (table of the elastic half-space) or fastsim",
+    )

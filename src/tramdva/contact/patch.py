@@ -12,12 +12,21 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tramdva.contact import fastsim, geometry, hertz, kalker, locus, polach, yawed_wheel
+from tramdva.contact import (
+    creep_table,
+    fastsim,
+    geometry,
+    hertz,
+    kalker,
+    locus,
+    polach,
+    yawed_wheel,
+)
 from tramdva.contact.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
-FASTSIM, POLACH = 0, 1
-METHODS = {"fastsim": FASTSIM, "polach": POLACH}
+FASTSIM, POLACH, HALF_SPACE = 0, 1, 2
+METHODS = {"fastsim": FASTSIM, "polach": POLACH, "half_space": HALF_SPACE}
 
 (
     STATUS, NORMAL_FORCE, LONGITUDINAL_FORCE, LATERAL_FORCE, SPIN_MOMENT, PENETRATION,
@@ -36,8 +45,9 @@ class ContactLaw(NamedTuple):
     modulus : E* in Pa; shear_modulus : Pa
     friction : (mu_0, A, B in s/m); polach : (k_A, k_S)
     damping_time : s/m of `hertz.damped_normal_force`
-    method : FASTSIM or POLACH
-    grid : PatchGrid
+    method : FASTSIM, POLACH or HALF_SPACE
+    grid : PatchGrid of FASTSIM
+    creep_table : CreepTable of HALF_SPACE
     """
 
     hertz_table: np.ndarray
@@ -49,6 +59,7 @@ class ContactLaw(NamedTuple):
     damping_time: float
     method: int
     grid: fastsim.PatchGrid
+    creep_table: creep_table.CreepTable
 
 
 def contact_law(
@@ -72,7 +83,7 @@ def contact_law(
     friction_maximum, friction_ratio : mu_0 and A, dimensionless; friction_decrease : B in s/m
     youngs_modulus : Pa; poisson_ratio : both bodies
     cells_along, strips, bound : see `fastsim.patch_grid`
-    method : 'fastsim' or 'polach'
+    method : 'fastsim', 'polach' or 'half_space'
     reduction_adhesion, reduction_slip : Polach's k_A and k_S
     damping_time : s/m, see `hertz.damped_normal_force`
     """
@@ -85,6 +96,7 @@ def contact_law(
         0.5 * youngs_modulus / (1.0 + poisson_ratio),
         (float(friction_maximum), float(friction_ratio), float(friction_decrease)),
         fastsim.patch_grid(cells_along, strips, bound),
+        creep_table.creep_table(poisson_ratio),
         (float(reduction_adhesion), float(reduction_slip)),
         float(damping_time),
         METHODS[method],
@@ -98,6 +110,7 @@ def law_of_tables(
     shear_modulus: float,
     friction: tuple[float, float, float],
     grid: fastsim.PatchGrid,
+    creep: creep_table.CreepTable,
     polach: tuple[float, float] = (1.0, 1.0),
     damping_time: float = 0.0,
     method: int = FASTSIM,
@@ -105,7 +118,7 @@ def law_of_tables(
     """Constants of the contacts from tables that are there already; fields as in `ContactLaw`."""
     return ContactLaw(
         hertz_table, kalker_table, modulus, shear_modulus, friction, polach, damping_time, method,
-        grid,
+        grid, creep,
     )  # fmt: skip
 
 
@@ -129,9 +142,14 @@ def tangential_forces(
 ):
     """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method.
 
-    Polach's formula knows no patch that is turned: it leaves the shear out.
+    Polach's formula and the table know no patch that is turned: they leave the shear out.
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
+    if law.method == HALF_SPACE:
+        return creep_table.half_space_forces(
+            a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
+            law.shear_modulus, law.creep_table,
+        )  # fmt: skip
     if law.method == POLACH:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
         return polach.polach_forces(
@@ -259,6 +277,8 @@ def wheel_contact(
         )
     status = CONTACT if normal > 0.0 else NO_CONTACT
     if found[7] != 0 or not np.isfinite(normal + force_x + force_t):
+        status = INVALID
+    if law.method == HALF_SPACE and normal > 0.0 and not creep_table.holds_for(a, b):
         status = INVALID
     result[STATUS] = status
     result[NORMAL_FORCE] = normal

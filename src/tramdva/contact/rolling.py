@@ -125,9 +125,16 @@ def _chord_area(x: np.ndarray) -> np.ndarray:
 
 
 def rolling_grid(
-    semi_axis_ratio: float, cells_along: int, strips: int, poisson_ratio: float = 0.28
+    semi_axis_ratio: float,
+    cells_along: int,
+    strips: int,
+    poisson_ratio: float = 0.28,
+    shear: float = 0.0,
 ) -> RollingGrid:
     """Grid over the ellipse with a / b = `semi_axis_ratio`, a along rolling.
+
+    Of an ellipse that is turned against rolling, a is the half length of the strip through the
+    centre, b the half width, and the strip at y has its centre at `shear` y.
 
     Strips are narrower towards the tips of the ellipse; each has the mean chord of the ellipse
     over its width and the Hertzian share of the load, and so have its equally long cells: full
@@ -146,7 +153,6 @@ def rolling_grid(
     load = np.outer(
         0.75 * np.diff(across - across**3 / 3.0), np.diff(_chord_area(along)) * 2.0 / np.pi
     )
-    x = np.outer(half, 0.5 * (along[1:] + along[:-1])).ravel()
     y, side_x, side_y = (
         np.repeat(v, cells_along)
         for v in (
@@ -155,6 +161,7 @@ def rolling_grid(
             width / root,
         )
     )
+    x = np.outer(half, 0.5 * (along[1:] + along[:-1])).ravel() + shear * y
     area = side_x * side_y
     slips = [np.empty((x.size, x.size)) for _ in range(3)]
     _fill_slips(x, y, side_x, side_y, side_x, poisson_ratio, *slips)

@@ -11,7 +11,7 @@ from tramdva.contact import geometry, profiles
 from tramdva.contact.geometry import ContactTable
 
 if TYPE_CHECKING:
-    from tramdva.contact.parameters import ContactGeometry, RailProfile, WheelProfile
+    from tramdva.contact.parameters import ContactProfiles, RailProfile, WheelProfile
 
 # Range of the contact tables: m of lateral shift, rad of roll; the yaw that `yaw_nodes` are for.
 SHIFT_RANGE, ROLL_RANGE, YAW_RANGE = 7e-3, 0.0125, 0.045
@@ -67,7 +67,7 @@ def yaw_reach(radius: float, half_wheelbase: float, half_distance: float) -> flo
 
 
 def zone_tables(
-    contact_geometry: ContactGeometry,
+    contact_geometry: ContactProfiles,
     wheel_radius: float,
     shift_step: float = 2.5e-5,
     yaw_nodes: int = 24,

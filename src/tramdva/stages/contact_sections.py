@@ -5,7 +5,7 @@ from typing import Any
 
 from tramdva.contact.geometry import ContactTable
 from tramdva.contact.measured_profile import measured_profile
-from tramdva.contact.parameters import ContactGeometry
+from tramdva.contact.parameters import ContactProfiles
 from tramdva.contact.tables import zone_tables
 
 
@@ -27,8 +27,9 @@ def line_tables(
         if given["measured"]:
             path = file_of(given["measured"])
             profiles[kind] = measured_profile(path, kind, given["measured_noise"])
+    own = {name: cfg["contact_geometry"][name] for name in ContactProfiles.model_fields}
     return zone_tables(
-        ContactGeometry.model_validate(cfg["contact_geometry"]),
+        ContactProfiles.model_validate(own),
         cfg["bogie"]["wheel"]["radius"],
         cfg["numerics"]["shift_step"],
         cfg["numerics"]["yaw_nodes"],

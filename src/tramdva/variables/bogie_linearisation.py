@@ -26,6 +26,10 @@ VARIABLES = Stage(
         "hertz_table": real("hertz_node hertz_column", "1", "table of the Hertzian ellipse"),
         "kalker_table": real("kalker_node kalker_column", "1", "Kalker's creep coefficients"),
         "patch_cells": real("direction", "1", "cells of the patch along, strips across"),
+        "creep_law": text("", "law of the creep forces"),
+        "creep_linear_table": real(
+            "creep_node creep_column", "1", "creep coefficients of the half-space, C11 and C22"
+        ),
         "rolling_speed": real("wheel", "m/s", "speed of the wheels along their rails"),
         "curvature": real("frame", "m-1", "curvature at bogie centre, front and rear axle"),
         "eigenvalue_real": real("mode", "s-1", "growth rate of the modes"),
