@@ -19,7 +19,7 @@ def test_after_the_warm_up_the_stages_compile_nothing():
     for name in (
         "wheelset.model._rhs",
         "bogie.wheel_forces.all_wheel_forces",
-        "bogie.integration.run",
+        "bogie.integration._run",
         "bogie.wheel_forces._sensitivity",
         "wear.passages._passages",
     ):
