@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tramdva.contact import locus
 from tramdva.contact.measured_profile import measured_profile
 from tramdva.contact.parameters import ContactGeometry
 from tramdva.contact.tables import TABLE_FIELDS, yaw_reach, zone_tables
@@ -40,7 +41,8 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
         ),
         **profiles,
     )
-    return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
+    found = {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
+    return {**found, "coefficients": found["coefficients"][..., : locus.COLUMNS]}
 
 
 def _sharpest_curve(cfg: Mapping[str, Any]) -> float:
