@@ -97,6 +97,23 @@ def with_friction_decrease(system: System, B: float) -> System:
     return system._replace(contacts=system.contacts._replace(law=law))
 
 
+class _Constants(NamedTuple):
+    """What linearisations of a vehicle share: output, D + G, inverse of the mass."""
+
+    output: np.ndarray
+    damping: np.ndarray
+    inverse: np.ndarray
+
+
+def _constants(system: System) -> _Constants:
+    vehicle = system.vehicle
+    return _Constants(
+        np.hstack([vehicle.local_position[:, : system.size], vehicle.local_velocity]),
+        vehicle.damping + vehicle.gyroscopic,
+        np.linalg.inv(vehicle.mass),
+    )
+
+
 def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Linearisation:
     """Linearise about a state; the contact by central differences with scaled steps."""
     jacobian = wheel_forces.contact_jacobian(
@@ -115,17 +132,23 @@ def linearised(system: System, contact_jacobian: np.ndarray) -> Linearisation:
         A = [        0            E        ]    E = rows of the identity without the hubs
             [ M^-1 (J_p - K)  M^-1 (J_v - D - G) ]
     """
+    k, constants = system.size, _constants(system)
+    matrix = _state_matrix(system, contact_jacobian, constants)
+    forces = np.vstack([np.zeros((k, k + HUBS)), constants.inverse])
+    return Linearisation(matrix, contact_jacobian, constants.output, forces)
+
+
+def _state_matrix(
+    system: System, contact_jacobian: np.ndarray, constants: _Constants
+) -> np.ndarray:
     k, vehicle = system.size, system.vehicle
-    n = k + HUBS
-    output = np.hstack([vehicle.local_position[:, :k], vehicle.local_velocity])
-    force = vehicle.force_input @ contact_jacobian @ output
+    force = vehicle.force_input @ contact_jacobian @ constants.output
     force[:, :k] -= vehicle.stiffness[:, :k]
-    force[:, k:] -= vehicle.damping + vehicle.gyroscopic
-    inverse = np.linalg.inv(vehicle.mass)
-    matrix = np.zeros((k + n, k + n))
+    force[:, k:] -= constants.damping
+    matrix = np.zeros((2 * k + HUBS, 2 * k + HUBS))
     matrix[:k, k : 2 * k] = np.eye(k)
-    matrix[k:] = inverse @ force
-    return Linearisation(matrix, contact_jacobian, output, np.vstack([np.zeros((k, n)), inverse]))
+    matrix[k:] = constants.inverse @ force
+    return matrix
 
 
 class Equilibrium(NamedTuple):
@@ -165,15 +188,18 @@ def equilibrium(
     vehicle into the curve, the last, of endless length, are Newton's.
     """
     state, length, mass = start.copy(), 1e-3, scipy.linalg.lu_factor(system.vehicle.mass)
-    rate = _rate(system, state, mass)
+    rate, constants = _rate(system, state, mass), _constants(system)
     change = np.inf
     for _ in range(max_iterations):
         if change < 1.0 and length > 1e6 and _unbalanced(rate) < tolerance:
             break
-        linear = linearise(system, state)
-        step = np.linalg.solve(np.eye(state.size) / length - linear.matrix, rate)
+        jacobian = wheel_forces.contact_jacobian(
+            system.contacts, system.curvatures, system.local(state)
+        )
+        matrix = _state_matrix(system, jacobian, constants)
+        step = np.linalg.solve(np.eye(state.size) / length - matrix, rate)
         trial_rate = _rate(system, state + step, mass)
-        change = float(np.max(np.abs(linear.output @ step) / _LARGEST_CHANGE))
+        change = float(np.max(np.abs(constants.output @ step) / _LARGEST_CHANGE))
         if change > 3.0 or not np.isfinite(trial_rate).all():
             length *= 0.25
             continue
