@@ -1,10 +1,12 @@
-"""Time of FASTSIM per cell and of one contact per call, beside plain compiled C.
+"""Time of FASTSIM per cell and of one contact per call, beside C that is written the same way.
 
-Run with OMP_NUM_THREADS=1; times are processor times of this process, the best of several repeats.
-The C reference is compiled by gcc if there is one and timed in the same run.
+Run with OMP_NUM_THREADS=1; times are processor times of this process, the best of several repeats
+that alternate with those of the C (`fastsim_strips.c`: the strips side by side, with -O3
+-march=native -ffast-math), compiled by gcc if there is one. Forces of both must agree.
 """
 
 import ctypes
+import functools
 import shutil
 import subprocess
 import tempfile
@@ -25,43 +27,62 @@ from tramdva.contact import (
     traction_field,
 )
 
-REPEATS, CALLS = 9, 20_000
+REPEATS, ROUNDS, CALLS = 9, 15, 20_000
 A, B, LOAD, FRICTION = 4e-3, 4e-3, 35e3, 0.35
 TABLE = kalker.kalker_table(0.28)
 FLEXIBILITY = kalker.flexibilities(TABLE, A, B, 82e9)
 
 
-def best(run, calls=CALLS):
+def best(run, calls=CALLS, repeats=REPEATS):
     """Shortest time per call in s."""
     run(10)
     times = []
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         start = time.process_time()
         run(calls)
         times.append((time.process_time() - start) / calls)
     return min(times)
 
 
-def compiled_c(cells, strips):
-    """Time per call of the C reference in s; None without gcc."""
+class _Grid(ctypes.Structure):
+    """A `fastsim.PatchGrid` as the C takes it."""
+
+    ALONG = ("node", "weight", "step", "middle", "bound_along")
+    ACROSS = ("half_length", "offset", "strip_area", "bound_across")
+    _fields_ = [
+        *[(name, ctypes.c_int) for name in ("nodes", "strips")],
+        *[(name, ctypes.c_void_p) for name in ALONG + ACROSS],
+    ]
+
+
+@functools.cache
+def compiled_c():
+    """Function `repeat` of the C reference; None without gcc."""
     if shutil.which("gcc") is None:
         return None
-    source = Path(__file__).with_name("fastsim_reference.c")
+    source = Path(__file__).with_name("fastsim_strips.c")
     with tempfile.TemporaryDirectory() as folder:
-        library = Path(folder) / "reference.so"
-        command = ["gcc", "-O3", "-march=native", "-fno-math-errno", "-shared", "-fPIC"]
+        library = Path(folder) / "strips.so"
+        command = ["gcc", "-O3", "-march=native", "-ffast-math", "-shared", "-fPIC"]
         subprocess.run([*command, str(source), "-o", str(library), "-lm"], check=True)
         repeat = ctypes.CDLL(str(library)).repeat
-        repeat.restype = ctypes.c_double
-        repeat.argtypes = [
-            ctypes.c_int,
-            *[ctypes.c_double] * 3,
-            ctypes.c_void_p,
-            *[ctypes.c_int] * 2,
-        ]
-        numbers = (ctypes.c_double * 3)(*FLEXIBILITY)
-        address = ctypes.cast(numbers, ctypes.c_void_p)
-        return best(lambda n: repeat(n, A, B, FRICTION * LOAD, address, cells, strips))
+    repeat.restype = ctypes.c_double
+    repeat.argtypes = [ctypes.c_int, *[ctypes.c_double] * 3, *[ctypes.c_void_p] * 4]
+    return repeat
+
+
+def in_c(grid):
+    """Function that calls the C a number of times and returns the last forces (3,)."""
+    arrays = [getattr(grid, name) for name in _Grid.ALONG + _Grid.ACROSS]
+    given = _Grid(grid.node.size, grid.offset.size, *(array.ctypes.data for array in arrays))
+    flexibility, work, force = np.array(FLEXIBILITY), fastsim.workspace(grid), np.zeros(3)
+    pointers = [flexibility.ctypes.data, ctypes.addressof(given), work.ctypes.data]
+
+    def run(times, kept=(given, flexibility, work)):
+        compiled_c()(times, A, B, FRICTION * LOAD, *pointers, force.ctypes.data)
+        return force
+
+    return run
 
 
 @njit
@@ -129,14 +150,29 @@ def grids():
     for cells, strips in ((10, 10), (12, 11), (12, 12), (16, 16), (20, 20), (40, 40)):
         grid = fastsim.patch_grid(cells, strips)
         work = fastsim.workspace(grid)
-        ours = best(lambda n, g=grid, w=work: _forces(n, FLEXIBILITY, g, w))
-        reference = compiled_c(cells, strips)
+
+        def run(n, grid=grid, work=work):
+            _forces(n, FLEXIBILITY, grid, work)
+
         count = cells * strips
-        line = f"FASTSIM {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us"
-        line += f"  {ours / count * 1e9:5.1f} ns/cell"
-        if reference:
-            line += f"   C {reference / count * 1e9:5.1f} ns/cell   ratio {ours / reference:4.2f}"
-        print(line)
+        if compiled_c() is None:
+            ours = best(run)
+            print(f"FASTSIM {cells:2d} x {strips:2d}  {ours / count * 1e9:5.1f} ns/cell")
+            continue
+        reference = in_c(grid)
+        here = fastsim.fastsim_forces(
+            A, B, LOAD, FRICTION, 1e-3, 2e-3, 0.3, FLEXIBILITY, grid, work
+        )
+        np.testing.assert_allclose(reference(1), here, rtol=1e-11)
+        times = np.array(
+            [[best(run, repeats=1), best(reference, repeats=1)] for _ in range(ROUNDS)]
+        )
+        ours, c = times.min(axis=0)
+        print(
+            f"FASTSIM {cells:2d} x {strips:2d}  {ours * 1e6:6.2f} us"
+            f"  {ours / count * 1e9:5.1f} ns/cell   C {c / count * 1e9:5.1f} ns/cell"
+            f"   ratio {ours / c:4.2f}"
+        )
 
 
 def laws():

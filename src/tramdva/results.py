@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import xarray
 
 COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
+QUICK_COMPRESSION = COMPRESSION | {"complevel": 1}
 
 
 def make(snakemake: Any, stage: ModuleType) -> None:
@@ -268,11 +269,11 @@ def _write(
         for dimension, length in lengths.items():
             dataset.createDimension(dimension, length)
         for name, variable in stage.variables.items():
-            _add(dataset, name, variable, arrays[name], stage.compressed)
+            _add(dataset, name, variable, arrays[name], name in stage.by_plane)
 
 
 def _add(
-    dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray, compressed: bool
+    dataset: netCDF4.Dataset, name: str, variable: Variable, array: np.ndarray, by_plane: bool
 ) -> None:
     dimensions = variable.dimensions
     if variable.kind == "text":
@@ -282,7 +283,10 @@ def _add(
             dataset.createDimension(characters, length)
         dimensions = (*dimensions, characters)
         array = np.frombuffer(array.tobytes(), "S1").reshape(*array.shape, length)
-    how = COMPRESSION if compressed else {}
+    how = COMPRESSION
+    if by_plane:
+        *first, rows, columns, _ = array.shape
+        how = QUICK_COMPRESSION | {"chunksizes": (*[1] * len(first), rows, columns, 1)}
     target = dataset.createVariable(name, array.dtype, dimensions, **how)
     if array.size:
         target[...] = array

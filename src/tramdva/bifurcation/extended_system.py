@@ -236,7 +236,8 @@ def correct(unknowns, predicted, tangent, tolerance, max_iterations, lu, pivots)
         lu = matrix(unknowns, z, J, tangent)
         pivots = factor(lu)
         step = np.zeros(z.size)
-        step[:-1] = -G
+        for i in range(G.size):
+            step[i] = -G[i]
         substitute(lu, pivots, step)
         if not np.isfinite(largest_magnitude(step)):
             return np.nan, iteration, z, tangent, lu, pivots
@@ -268,7 +269,8 @@ def _chord(unknowns, z, tangent, tolerance, lu, pivots):
         if not size <= _CHORD_RATE * last:
             return z, False
         step = np.zeros(z.size)
-        step[:-1] = -G
+        for i in range(G.size):
+            step[i] = -G[i]
         substitute(lu, pivots, step)
         along = 0.0
         for i in range(z.size):

@@ -96,6 +96,23 @@ def with_friction_decrease(system: System, B: float) -> System:
     return system._replace(contacts=system.contacts._replace(law=law))
 
 
+class _Constants(NamedTuple):
+    """What linearisations of a vehicle share: output, D + G, inverse of the mass."""
+
+    output: np.ndarray
+    damping: np.ndarray
+    inverse: np.ndarray
+
+
+def _constants(system: System) -> _Constants:
+    vehicle = system.vehicle
+    return _Constants(
+        np.hstack([vehicle.local_position[:, : system.size], vehicle.local_velocity]),
+        vehicle.damping + vehicle.gyroscopic,
+        np.linalg.inv(vehicle.mass),
+    )
+
+
 def linearise(system: System, state: np.ndarray, step_scale: float = 1.0) -> Linearisation:
     """Linearise about a state; the contact by central differences with scaled steps."""
     jacobian = wheel_forces.contact_jacobian(
@@ -114,17 +131,30 @@ def linearised(system: System, contact_jacobian: np.ndarray) -> Linearisation:
         A = [        0            E        ]    E = rows of the identity without the hubs
             [ M^-1 (J_p - K)  M^-1 (J_v - D - G) ]
     """
+    k, constants = system.size, _constants(system)
+    matrix = _state_matrix(system, contact_jacobian, constants)
+    forces = np.vstack([np.zeros((k, k + HUBS)), constants.inverse])
+    return Linearisation(matrix, contact_jacobian, constants.output, forces)
+
+
+def _state_matrix(
+    system: System, contact_jacobian: np.ndarray, constants: _Constants
+) -> np.ndarray:
     k, vehicle = system.size, system.vehicle
-    n = k + HUBS
-    output = np.hstack([vehicle.local_position[:, :k], vehicle.local_velocity])
-    force = vehicle.force_input @ contact_jacobian @ output
+    force = vehicle.force_input @ contact_jacobian @ constants.output
     force[:, :k] -= vehicle.stiffness[:, :k]
-    force[:, k:] -= vehicle.damping + vehicle.gyroscopic
-    inverse = np.linalg.inv(vehicle.mass)
-    matrix = np.zeros((k + n, k + n))
+    force[:, k:] -= constants.damping
+    matrix = np.zeros((2 * k + HUBS, 2 * k + HUBS))
     matrix[:k, k : 2 * k] = np.eye(k)
-    matrix[k:] = inverse @ force
-    return Linearisation(matrix, contact_jacobian, output, np.vstack([np.zeros((k, n)), inverse]))
+    matrix[k:] = constants.inverse @ force
+    return matrix
+
+
+def _matrix_at(system: System, state: np.ndarray, constants: _Constants) -> np.ndarray:
+    jacobian = wheel_forces.contact_jacobian(
+        system.contacts, system.curvatures, system.local(state)
+    )
+    return _state_matrix(system, jacobian, constants)
 
 
 class Equilibrium(NamedTuple):
@@ -164,15 +194,15 @@ def equilibrium(
     vehicle into the curve, the last, of endless length, are Newton's.
     """
     state, length, mass = start.copy(), 1e-3, scipy.linalg.lu_factor(system.vehicle.mass)
-    rate = _rate(system, state, mass)
+    rate, constants = _rate(system, state, mass), _constants(system)
     change = np.inf
     for _ in range(max_iterations):
         if change < 1.0 and length > 1e6 and _unbalanced(rate) < tolerance:
             break
-        linear = linearise(system, state)
-        step = np.linalg.solve(np.eye(state.size) / length - linear.matrix, rate)
+        matrix = _matrix_at(system, state, constants)
+        step = np.linalg.solve(np.eye(state.size) / length - matrix, rate)
         trial_rate = _rate(system, state + step, mass)
-        change = _felt(linear, step)
+        change = _felt(constants.output, step)
         if change > 3.0 or not np.isfinite(trial_rate).all():
             length *= 0.25
             continue
@@ -199,26 +229,26 @@ def corrected(
     light rim and of the car differ by five decades.
     """
     state, mass = start.copy(), scipy.linalg.lu_factor(system.vehicle.mass)
-    rate = _rate(system, state, mass)
+    rate, constants = _rate(system, state, mass), _constants(system)
     for _ in range(max_iterations):
         if not np.isfinite(rate).all():
             return None
-        linear = linearise(system, state)
-        factors = scipy.linalg.lu_factor(linear.matrix)
+        factors = scipy.linalg.lu_factor(_matrix_at(system, state, constants))
         step = -scipy.linalg.lu_solve(factors, rate)
-        size = _felt(linear, step)
+        size = _felt(constants.output, step)
         damping = min(1.0, 3.0 / max(size, 1e-300))
         while True:
             trial = _rate(system, state + damping * step, mass)
             if np.isfinite(trial).all():
-                simplified = _felt(linear, scipy.linalg.lu_solve(factors, trial))
+                simplified = _felt(constants.output, scipy.linalg.lu_solve(factors, trial))
                 if simplified <= (1.0 - 0.5 * damping) * size or size < 1e-6:
                     break
             damping *= 0.5
             if damping < 1e-2:
                 return None
         state, rate = state + damping * step, trial
-        if size < 1e-3 and _unbalanced(rate) < tolerance:
+        # Below 1e-9 of a change rounding is all that is left.
+        if size < 1e-3 and _unbalanced(rate) < (tolerance if size > 1e-9 else 10.0 * tolerance):
             found = _ended(system, state, _unbalanced(rate), tolerance)
             return found if found.status == "converged" else None
     return None
@@ -229,9 +259,9 @@ def near(system: System, start: np.ndarray, tolerance: float = 1e-9) -> Equilibr
     return corrected(system, start, tolerance) or equilibrium(system, start, tolerance)
 
 
-def _felt(linear: Linearisation, step: np.ndarray) -> float:
+def _felt(output: np.ndarray, step: np.ndarray) -> float:
     """Largest change of a local variable of a contact in a step, in those of `_LARGEST_CHANGE`."""
-    return float(np.max(np.abs(linear.output @ step) / _LARGEST_CHANGE))
+    return float(np.max(np.abs(output @ step) / _LARGEST_CHANGE))
 
 
 def _ended(system: System, state: np.ndarray, residual: float, tolerance: float) -> Equilibrium:

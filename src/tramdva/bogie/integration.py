@@ -29,6 +29,10 @@ RECORDED = (
     patch.WHEEL_LEAD,
 )  # fmt: skip
 
+# Of what Python itself does not call: the way from there takes longer to compile.
+INNER = {"cache": True, "nogil": True, "error_model": "numpy"}
+INNER |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": True}
+
 
 class ModalContacts(NamedTuple):
     """What the contacts are to the m modes near an equilibrium.
@@ -129,14 +133,14 @@ def steady(modes: int, curvatures: np.ndarray) -> Passage:
 # instead of once per level.
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(**INNER)
 def _copy(source, target):
     """Copy element by element: `target[:] = source` compiles seconds of error messages."""
     for k in range(source.size):
         target[k] = source[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@njit(**INNER, fastmath=FAST)
 def _locals_of(modal, excitation, z, time, local):
     """Local variables of the contacts of a packed modal state at a time (s)."""
     angle = excitation.angular_frequency * time
@@ -151,7 +155,7 @@ def _locals_of(modal, excitation, z, time, local):
             local[j] += amount * row[j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@njit(**INNER, fastmath=FAST)
 def _add_remainder(modal, excitation, time, local, force, forcing):
     """Add the modal forcing by contact forces beyond their linearisation."""
     angle = excitation.angular_frequency * time
@@ -192,7 +196,7 @@ def _forcing(modal, contacts, passage, excitation, z, time, share, work, forcing
     _add_remainder(modal, excitation, time, local, force, forcing)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@njit(**INNER, fastmath=FAST)
 def _turned(coefficient, z, out, add):
     """Product of a diagonal complex matrix (2, m) and a packed state; added to `out` if `add`."""
     m = coefficient.shape[1]
@@ -267,11 +271,10 @@ def _worst(results):
     return worst
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
 def run(
     modal, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
     locals_out, results_out, columns, every,
-):  # fmt: skip
+) -> tuple[int, int, int, int]:  # fmt: skip
     """Integrate over `locals_out.shape[0] * every` intervals; z is advanced.
 
     Parameters
@@ -290,6 +293,18 @@ def run(
     -------
     level, status, outputs written, number of evaluations of the contacts.
     """
+    return _run(
+        modal, wheel_forces.compiled_once(contacts), passage, excitation, tables, interval,
+        tolerance, level, time, z, work, locals_out, results_out, columns, every,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
+def _run(
+    modal, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
+    locals_out, results_out, columns, every,
+):  # fmt: skip
+    """Do what `run` says."""
     arrays = (np.empty((4, z.size)), np.empty(z.size), np.empty(z.size))
     saved = np.empty(z.size)
     total = locals_out.shape[0] * every

@@ -60,6 +60,8 @@ def wheel_places(
     )
 
 
+# Kernels are compiled for this number of zones: fewer leave tables at the end unused.
+MOST_ZONES = 3
 # Beyond the results of a contact: where it was evaluated (y, z, roll, yaw, x).
 PLACE = patch.RESULTS
 COLUMNS = PLACE + 5
@@ -93,7 +95,7 @@ def _remember(result, y, z, roll, yaw, x):
     result[PLACE + 4] = x
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)
 def wheel_forces(
     contacts, wheel, curvature, local, deviation, deviation_rate, scratch, results, force
 ):
@@ -101,7 +103,7 @@ def wheel_forces(
 
     Parameters
     ----------
-    contacts : Contacts
+    contacts : Contacts, of `compiled_once`
     wheel : index in `vehicle.WHEELS`
     curvature : 1/m at the axle's frame
     local : (11,) local variables of the wheel
@@ -142,7 +144,7 @@ def wheel_forces(
     position = (across - 0.5 * turn * ahead - side * places.rail, z + roll * arm)
     rolling = speed - turning * base
     force[:] = 0.0
-    for zone in range(len(contacts.tables)):
+    for zone in range(results.shape[0]):
         result = results[zone]
         if _still_apart(result, y, z, roll, yaw, local[X]):
             continue
@@ -165,7 +167,7 @@ def wheel_forces(
         force[5] += m_z - arm * f_x
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
 def all_wheel_forces(
     contacts, curvatures, local, deviation, deviation_rate, scratch, results, force
 ):
@@ -205,7 +207,7 @@ class RadiusSensitivity(NamedTuple):
     force: np.ndarray
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
 def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, jacobian, out):
     """Fill `jacobian` (4, 6, 11) and the arrays `out` of a `RadiusSensitivity` by differences.
 
@@ -213,7 +215,7 @@ def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, ja
     the others radius deviation and rate, zone by zone.
     """
     by_local, by_deviation, by_force = out
-    zones = len(contacts.tables)
+    zones = results.shape[1]
     shifted, force, radius = np.empty(LOCALS), np.empty(WHEEL_FORCES), np.zeros((2, zones))
     for wheel in range(4):
         curvature = curvatures[contacts.places.axle[wheel]]
@@ -247,6 +249,12 @@ def _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, ja
                         by_deviation[wheel, zone, c, k - LOCALS] += scale * results[0, zone, c]
 
 
+def compiled_once(contacts: Contacts) -> Contacts:
+    """Contacts of the type for which kernels are compiled, whatever the number of zones."""
+    spare = MOST_ZONES - len(contacts.tables)
+    return contacts._replace(tables=contacts.tables + spare * contacts.tables[-1:])
+
+
 def workspace(contacts: Contacts) -> tuple[tuple, np.ndarray]:
     """Scratch arrays and array of results for `all_wheel_forces`."""
     rows, work, _ = patch.contact_workspace(contacts.law)
@@ -259,7 +267,9 @@ def contact_forces(
     """Forces (24,) and results (4, zones, COLUMNS) at local variables (44,) with round wheels."""
     scratch, results = workspace(contacts)
     force, zero = np.empty(4 * WHEEL_FORCES), np.zeros((4, len(contacts.tables)))
-    all_wheel_forces(contacts, curvatures, local, zero, zero, scratch, results, force)
+    all_wheel_forces(
+        compiled_once(contacts), curvatures, local, zero, zero, scratch, results, force
+    )
     return force, results
 
 
@@ -286,7 +296,10 @@ def _derivatives(
     )
     cases = LOCALS + 2 * zones if deviations else LOCALS
     steps = scale * _STEPS
-    _sensitivity(contacts, curvatures, local, steps, scratch, results, cases, blocks, tuple(out))
+    _sensitivity(
+        compiled_once(contacts), curvatures, local, steps, scratch, results, cases, blocks,
+        tuple(out),
+    )  # fmt: skip
     return blocks, out
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tramdva.contact import geometry, profiles
+from tramdva.contact import geometry, locus, profiles
 from tramdva.contact.geometry import ContactTable
 
 if TYPE_CHECKING:
@@ -100,7 +100,11 @@ def zone_tables(
 
 def stored_tables(tables: Mapping[str, np.ndarray]) -> tuple[ContactTable, ...]:
     """Contact tables of the zones from the variables of ``contact_geometry.nc``."""
-    zones = zip(*(tables[name] for name in TABLE_FIELDS), strict=True)
+    stored = tables["coefficients"]
+    coefficients = np.zeros((*stored.shape[:-1], locus.STRIDE))
+    coefficients[..., : stored.shape[-1]] = stored
+    whole = {**tables, "coefficients": coefficients}
+    zones = zip(*(whole[name] for name in TABLE_FIELDS), strict=True)
     return tuple(
         ContactTable(*(float(part) if part.ndim == 0 else part for part in zone)) for zone in zones
     )

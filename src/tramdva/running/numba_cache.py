@@ -24,10 +24,13 @@ def use_numba_cache(package: Path = PACKAGE) -> Path:
     all modules with compiled functions, and of what they import, does. It is below NUMBA_CACHE_DIR
     or else in the cache of the user or, where that cannot be written, in the working directory.
     NUMBA_CACHE_DIR is set for this process and those that it starts; call this before Numba is
-    imported. Folders that were unused for long are removed.
+    imported. Copies of the same sources share what was compiled. Folders that were unused for long
+    are removed.
     """
     folder = _numba_cache_folder(package)
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    with suppress(OSError):  # where there are no links, each copy compiles for itself
+        _share_between_copies(folder, package)
     return folder
 
 
@@ -37,12 +40,13 @@ def compile_kernels_once(package: Path = PACKAGE) -> None:
     A kernel that was just compiled and the same kernel out of the cache can differ in the last
     bit: each is optimised with other functions in sight. So all jobs take theirs from the cache.
     """
-    # Numba keeps what it compiled by its own version, that of Python, and the place and the date
+    # Numba keeps what it compiled by its own version, that of Python, and the place and the content
     # of the sources.
-    places = "".join(f"{path} {path.stat().st_mtime_ns};" for path in _compiled_files(package))
-    places += f"{sys.version_info[:2]} {metadata.version('numba')}"
-    name = f"complete-{hashlib.sha256(places.encode()).hexdigest()[:20]}"
-    done = Path(os.environ["NUMBA_CACHE_DIR"]) / name
+    folder = Path(os.environ["NUMBA_CACHE_DIR"])
+    kept_by = f"{_content_hash(package)} {sys.version_info[:2]} {metadata.version('numba')}"
+    if not all(copy.is_symlink() for copy in _folders_of_copy(folder, package).values()):
+        kept_by += f" {package}"
+    done = folder / f"complete-{hashlib.sha256(kept_by.encode()).hexdigest()[:20]}"
     if done.is_file():
         return
     print("tramdva: compiling, once for this version of the code (a minute)", flush=True)
@@ -65,6 +69,37 @@ def _numba_cache_folder(package: Path) -> Path:
             _remove_unused(folder)
             return folder
     return folder
+
+
+def _share_between_copies(folder: Path, package: Path) -> None:
+    """Lead the folders that Numba names by the place of the sources to one for their content."""
+    content = f"content-{_content_hash(package)}"
+    for name, copy in _folders_of_copy(folder, package).items():
+        (folder / content / name).mkdir(parents=True, exist_ok=True)
+        target = Path(content, name)
+        if copy.is_dir() and (not copy.is_symlink() or copy.readlink() == target):
+            continue
+        link = folder / f"{copy.name}.{os.getpid()}"
+        link.symlink_to(target, target_is_directory=True)
+        link.replace(copy)
+
+
+def _folders_of_copy(folder: Path, package: Path) -> dict[str, Path]:
+    """Where Numba (`get_suitable_cache_subpath`) keeps the functions of folders of the package."""
+    places = {path.absolute().parent for path in _compiled_files(package)}
+    return {
+        os.path.relpath(place, package): folder
+        / f"{place.name}_{hashlib.sha1(str(place).encode()).hexdigest()}"
+        for place in places
+    }
+
+
+def _content_hash(package: Path) -> str:
+    """Hash the bytes of the modules that compile functions."""
+    digest = hashlib.sha256()
+    for path in _compiled_files(package):
+        digest.update(os.path.relpath(path, package).encode() + path.read_bytes())
+    return digest.hexdigest()[:20]
 
 
 def _compiled_code_hash(package: Path) -> str:
@@ -90,7 +125,12 @@ def _remove_unused(current: Path) -> None:
         try:
             if folder != current and folder.stat().st_mtime < time.time() - UNUSED_AFTER:
                 for file in sorted(folder.rglob("*"), reverse=True):
-                    file.rmdir() if file.is_dir() else file.unlink()
+                    file.rmdir() if _is_folder(file) else file.unlink()
                 folder.rmdir()
         except OSError:
             continue
+
+
+def _is_folder(file: Path) -> bool:
+    """Tell whether a file is a folder and no link to one."""
+    return file.is_dir() and not file.is_symlink()

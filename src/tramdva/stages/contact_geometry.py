@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tramdva.contact import locus
 from tramdva.contact.tables import TABLE_FIELDS, yaw_reach
 from tramdva.stages.contact_sections import line_tables
 from tramdva.variables.contact_geometry import VARIABLES
@@ -28,7 +29,8 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
         _sharpest_curve(cfg), bogie["half_wheelbase"], bogie["wheel"]["half_distance"]
     )
     tables = line_tables(cfg, reach, file_of)
-    return {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
+    found = {name: np.array([getattr(table, name) for table in tables]) for name in TABLE_FIELDS}
+    return {**found, "coefficients": found["coefficients"][..., : locus.COLUMNS]}
 
 
 def _sharpest_curve(cfg: Mapping[str, Any]) -> float:

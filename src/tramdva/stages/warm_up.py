@@ -22,9 +22,8 @@ def compile_kernels() -> None:
     with np.errstate(all="ignore"):
         _wheelset()
         _bifurcation()
-        for zones in (2, 3):
-            contacts = _contacts(zones)
-            _bogie(contacts)
+        contacts = _contacts(2)
+        _bogie(contacts)
         _wear(contacts.law)
 
 

@@ -16,5 +16,5 @@ VARIABLES = Stage(
         "wheel_radius": real("zone", "m", "wheel radius at the tape circle"),
         "shear": real("zone", "m", "shift of the table per tan(yaw)^2"),
     },
-    compressed=False,
+    by_plane=("coefficients",),
 )

@@ -10,8 +10,10 @@ VARIABLES = Stage(
     "Growth rate of the bogie without absorbers under other theories of contact",
     {
         "variation": text("variation", "what is changed; the first is the line as configured"),
-        "kind": text("variation", "as configured, theory, discretisation, or comparison: not counted"),
-        "growth_rate": real("variation", "1/s", "largest growth rate at the line's B"),
+        "kind": text(
+            "variation", "as configured, theory, discretisation, or comparison: not counted"
+        ),
+        "growth_rate": real("variation", "1/s", "largest growth rate at the B of the line"),
         "frequency": real("variation", "Hz", "its frequency"),
         "critical_friction_decrease": real(
             "variation", "s/m", "B where self-excitation begins, NaN where it does not"

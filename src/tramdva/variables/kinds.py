@@ -23,7 +23,9 @@ class Stage:
     name: str
     title: str
     variables: dict[str, Variable]
-    compressed: bool = True  # not where many short jobs read a large file
+    # Large arrays that many short jobs read: packed quickly, a plane of two of the last dimensions
+    # but one after the other, since what differs in kind along the last one packs badly.
+    by_plane: tuple[str, ...] = ()
 
 
 def real(dimensions: str, unit: str, long_name: str) -> Variable:

@@ -107,7 +107,9 @@ def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, 
             flexibility, grid, field,
         )  # fmt: skip
         area[i] = archard_depth(field, rolling_speed, chart, slip, depth, shares[i])
-        shares[i] /= shares[i].sum()
+        total = shares[i].sum()
+        for j in range(shares.shape[1]):  # an assignment of arrays compiles seconds of messages
+            shares[i, j] /= total
 
 
 def passages(
