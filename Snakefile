@@ -3,15 +3,16 @@
 # Stage: the stages whose files it reads, and what it makes. Its script, module in
 # src/tramdva/stages, variables and file in results/{line} bear the same name.
 STAGES = {
-    "stability_map": ([], "stability maps (figure 2)"),
-    "hopf_points": (["stability_map"], "Hopf points (figure 3)"),
-    "limit_cycles": (["hopf_points"], "limit cycles (figure 3)"),
-    "hopf_curves": ([], "Hopf curves (figure 4)"),
-    "critical_hopf_curve": (["hopf_curves"], "critical Hopf curve (figure 5)"),
-    "cycle_amplitudes": (["critical_hopf_curve"], "cycle amplitudes (figure 6)"),
-    "absorber_tuning": (["critical_hopf_curve"], "designs of the absorber (Table 2)"),
-    "frequency_response": (["absorber_tuning"], "frequency response (figure 7)"),
+    "stability_map": (["basic_model"], "stability maps (figure 2)"),
+    "hopf_points": (["stability_map", "basic_model"], "Hopf points (figure 3)"),
+    "limit_cycles": (["hopf_points", "basic_model"], "limit cycles (figure 3)"),
+    "hopf_curves": (["basic_model"], "Hopf curves (figure 4)"),
+    "critical_hopf_curve": (["hopf_curves", "basic_model"], "critical Hopf curve (figure 5)"),
+    "cycle_amplitudes": (["critical_hopf_curve", "basic_model"], "cycle amplitudes (figure 6)"),
+    "absorber_tuning": (["critical_hopf_curve", "basic_model"], "designs of the absorber (Table 2)"),
+    "frequency_response": (["absorber_tuning", "basic_model"], "frequency response (figure 7)"),
     "contact_geometry": ([], "contact tables of the profiles"),
+    "basic_model": (["contact_geometry"], "basic model of the line"),
     "curving_equilibrium": (["contact_geometry", "absorber_tuning"], "steady curving of the bogie"),
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
     "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
@@ -20,7 +21,7 @@ STAGES = {
         ["contact_geometry", "bogie_linearisation"],
         "tendency over speed and radius",
     ),
-    "wheelset_designs": ([], "the wheelset with any absorber"),
+    "wheelset_designs": (["basic_model"], "the wheelset with any absorber"),
     "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
     "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
 }
@@ -38,7 +39,7 @@ PICTURE, TABLE = {"pdf": "pdf", "png": "png"}, {"table": "csv", "page": "html"}
 SHEET, PAGE = {"pdf": "pdf", "html": "html"}, {"page": "html"}
 # Figure: the stages whose files it reads, its chapter in the report, its name there, its files.
 FIGURES = {
-    "fig02_stability_map": (["stability_map"], "Stability", "Figure 2", PICTURE),
+    "fig02_stability_map": (["stability_map", "basic_model"], "Stability", "Figure 2", PICTURE),
     "fig03_bifurcation_diagram": (
         ["hopf_points", "limit_cycles"],
         "Self-excited vibrations",
@@ -52,7 +53,7 @@ FIGURES = {
         PICTURE,
     ),
     "fig05_critical_hopf_curve": (
-        ["critical_hopf_curve"],
+        ["critical_hopf_curve", "basic_model"],
         "Self-excited vibrations",
         "Figure 5",
         PICTURE,

@@ -63,6 +63,7 @@ BUDGET = {
     "absorber_tuning": 15,
     "frequency_response": 7,
     "contact_geometry": 6,
+    "basic_model": 24,
     "curving_equilibrium": 23,
     "bogie_modes": 23,
     "curve_entry": 24,

@@ -6,7 +6,7 @@ for stage, (reads, makes) in STAGES.items():
         name:
             stage
         input:
-            **inputs(reads),
+            **inputs(stage, reads),
         output:
             f"results/{{line}}/{stage}.nc",
         log:

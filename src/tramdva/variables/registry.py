@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from tramdva.variables import (
     absorber_tuning,
+    basic_model,
     bogie_designs,
     bogie_linearisation,
     bogie_modes,
@@ -45,6 +46,7 @@ STAGES: dict[str, Stage] = {
         absorber_tuning,
         frequency_response,
         contact_geometry,
+        basic_model,
         curving_equilibrium,
         bogie_modes,
         curve_entry,
