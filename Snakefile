@@ -13,6 +13,7 @@ STAGES = {
     "frequency_response": (["absorber_tuning", "basic_model"], "frequency response (figure 7)"),
     "contact_geometry": ([], "contact tables of the profiles"),
     "basic_model": (["contact_geometry"], "basic model of the line"),
+    "preflight": (["contact_geometry", "basic_model"], "the line at a glance"),
     "curving_equilibrium": (["contact_geometry", "absorber_tuning"], "steady curving of the bogie"),
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
     "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
@@ -39,6 +40,8 @@ PICTURE, TABLE = {"pdf": "pdf", "png": "png"}, {"table": "csv", "page": "html"}
 SHEET, PAGE = {"pdf": "pdf", "html": "html"}, {"page": "html"}
 # Figure: the stages whose files it reads, its chapter in the report, its name there, its files.
 FIGURES = {
+    "preflight_page": (["preflight"], "Before all", "The line at a glance", PAGE),
+    "preflight_chart": (["preflight"], "Before all", "Running and modes", PICTURE),
     "fig02_stability_map": (["stability_map", "basic_model"], "Stability", "Figure 2", PICTURE),
     "fig03_bifurcation_diagram": (
         ["hopf_points", "limit_cycles"],
@@ -116,6 +119,15 @@ rule all:
         [pictures_of(figure, line) for line in LINES for figure in FIGURES],
     message:
         "all numbers, figures and tables"
+
+
+rule check:
+    input:
+        [files_of("preflight", line) for line in LINES],
+    message:
+        "the lines at a glance"
+    shell:
+        "python -m tramdva.report.preflight {input:q}"
 
 
 include: "workflow/rules/stages.smk"

@@ -64,6 +64,7 @@ BUDGET = {
     "frequency_response": 7,
     "contact_geometry": 6,
     "basic_model": 24,
+    "preflight": 24,
     "curving_equilibrium": 23,
     "bogie_modes": 23,
     "curve_entry": 24,
