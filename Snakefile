@@ -3,15 +3,17 @@
 # Stage: the stages whose files it reads, and what it makes. Its script, module in
 # src/tramdva/stages, variables and file in results/{line} bear the same name.
 STAGES = {
-    "stability_map": ([], "stability maps (figure 2)"),
-    "hopf_points": (["stability_map"], "Hopf points (figure 3)"),
-    "limit_cycles": (["hopf_points"], "limit cycles (figure 3)"),
-    "hopf_curves": ([], "Hopf curves (figure 4)"),
-    "critical_hopf_curve": (["hopf_curves"], "critical Hopf curve (figure 5)"),
-    "cycle_amplitudes": (["critical_hopf_curve"], "cycle amplitudes (figure 6)"),
-    "absorber_tuning": (["critical_hopf_curve"], "designs of the absorber (Table 2)"),
-    "frequency_response": (["absorber_tuning"], "frequency response (figure 7)"),
+    "stability_map": (["basic_model"], "stability maps (figure 2)"),
+    "hopf_points": (["stability_map", "basic_model"], "Hopf points (figure 3)"),
+    "limit_cycles": (["hopf_points", "basic_model"], "limit cycles (figure 3)"),
+    "hopf_curves": (["basic_model"], "Hopf curves (figure 4)"),
+    "critical_hopf_curve": (["hopf_curves", "basic_model"], "critical Hopf curve (figure 5)"),
+    "cycle_amplitudes": (["critical_hopf_curve", "basic_model"], "cycle amplitudes (figure 6)"),
+    "absorber_tuning": (["critical_hopf_curve", "basic_model"], "designs of the absorber (Table 2)"),
+    "frequency_response": (["absorber_tuning", "basic_model"], "frequency response (figure 7)"),
     "contact_geometry": ([], "contact tables of the profiles"),
+    "basic_model": (["contact_geometry"], "basic model of the line"),
+    "preflight": (["contact_geometry", "basic_model"], "the line at a glance"),
     "curving_equilibrium": (["contact_geometry", "absorber_tuning"], "steady curving of the bogie"),
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
     "growth_band": (["contact_geometry"], "how sure the growth rate is"),
@@ -21,7 +23,7 @@ STAGES = {
         ["contact_geometry", "bogie_linearisation"],
         "tendency over speed and radius",
     ),
-    "wheelset_designs": ([], "the wheelset with any absorber"),
+    "wheelset_designs": (["basic_model"], "the wheelset with any absorber"),
     "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
     "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
 }
@@ -39,7 +41,9 @@ PICTURE, TABLE = {"pdf": "pdf", "png": "png"}, {"table": "csv", "page": "html"}
 SHEET, PAGE = {"pdf": "pdf", "html": "html"}, {"page": "html"}
 # Figure: the stages whose files it reads, its chapter in the report, its name there, its files.
 FIGURES = {
-    "fig02_stability_map": (["stability_map"], "Stability", "Figure 2", PICTURE),
+    "preflight_page": (["preflight"], "Before all", "The line at a glance", PAGE),
+    "preflight_chart": (["preflight"], "Before all", "Running and modes", PICTURE),
+    "fig02_stability_map": (["stability_map", "basic_model"], "Stability", "Figure 2", PICTURE),
     "fig03_bifurcation_diagram": (
         ["hopf_points", "limit_cycles"],
         "Self-excited vibrations",
@@ -53,7 +57,7 @@ FIGURES = {
         PICTURE,
     ),
     "fig05_critical_hopf_curve": (
-        ["critical_hopf_curve"],
+        ["critical_hopf_curve", "basic_model"],
         "Self-excited vibrations",
         "Figure 5",
         PICTURE,
@@ -117,6 +121,15 @@ rule all:
         [pictures_of(figure, line) for line in LINES for figure in FIGURES],
     message:
         "all numbers, figures and tables"
+
+
+rule check:
+    input:
+        [files_of("preflight", line) for line in LINES],
+    message:
+        "the lines at a glance"
+    shell:
+        "python -m tramdva.report.preflight {input:q}"
 
 
 include: "workflow/rules/stages.smk"

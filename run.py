@@ -2,6 +2,7 @@
 """Set tramdva up once and run it; needs Python 3.11, 3.12 or 3.13 and nothing else.
 
     python3 run.py [...]         all figures and numbers; arguments go to snakemake
+    python3 run.py check [...]   the lines at a glance, in seconds; arguments go to snakemake
     python3 run.py test [...]    the tests; arguments go to pytest
     python3 run.py report        report.html with the figures that exist
     python3 run.py crate [...]   ro-crate-metadata.json: where each figure and number comes from
@@ -57,6 +58,8 @@ def command(arguments: list[str]) -> list[str]:
     """Return the program, with its arguments, that the arguments of this one ask for."""
     if arguments[:1] == ["test"]:
         return ["pytest", *arguments[1:]]
+    if arguments[:1] == ["check"]:
+        return ["snakemake", "check", "-j2", "--quiet", "all", *arguments[1:]]
     if arguments[:1] == ["report"]:
         return ["snakemake", "--report", "report.html", *arguments[1:]]
     if arguments[:1] in (["crate"], ["archive"]):

@@ -20,7 +20,9 @@ DETAIL = (0.63, 0.06, 0.34, 0.34)  # inset of panel (a), in parts of the panel
 STAR = {"marker": "*", "color": "black", "linestyle": "none", "markersize": 8, "mec": "white"}
 
 
-def main(*, pdf: str, png: str, code: str, cfg: dict, stability_map: str) -> None:
+def main(
+    *, pdf: str, png: str, code: str, cfg: dict, stability_map: str, basic_model: str | None = None
+) -> None:
     """Draw figure 2.
 
     Parameters
@@ -33,7 +35,10 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, stability_map: str) -> Non
         Label of the line, names and labels of the variants, c_T and d_T of the line's absorber.
     stability_map : str
         Result file.
+    basic_model : str, optional
+        Result file of the basic model where the absorber follows from the line's bogie.
     """
+    cfg = results.completed(cfg, results.read(basic_model) if basic_model else None)
     with figures.style(STYLE):
         figure = draw(cfg, results.read(stability_map))
         figures.save(figure, pdf, png, f"Stability maps: {cfg['label']}")

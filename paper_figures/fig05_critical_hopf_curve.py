@@ -20,7 +20,15 @@ STAR = {"marker": "*", "color": "black", "linestyle": "none", "markersize": 8, "
 PEAK = {"marker": "^", "color": "black", "linestyle": "none", "markersize": 5}
 
 
-def main(*, pdf: str, png: str, code: str, cfg: dict, critical_hopf_curve: str) -> None:
+def main(
+    *,
+    pdf: str,
+    png: str,
+    code: str,
+    cfg: dict,
+    critical_hopf_curve: str,
+    basic_model: str | None = None,
+) -> None:
     """Draw figure 5.
 
     Parameters
@@ -33,7 +41,10 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, critical_hopf_curve: str) 
         Label of the line, c_T and d_T of the line's absorber.
     critical_hopf_curve : str
         Result file.
+    basic_model : str, optional
+        Result file of the basic model where the absorber follows from the line's bogie.
     """
+    cfg = results.completed(cfg, results.read(basic_model) if basic_model else None)
     with figures.style(STYLE):
         figure = draw(cfg, results.read(critical_hopf_curve))
         figures.save(figure, pdf, png, f"Critical Hopf curve: {cfg['label']}")

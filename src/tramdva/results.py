@@ -50,14 +50,61 @@ def make(snakemake: Any, stage: ModuleType) -> None:
     with job.logging_to(snakemake.log[0]):
         orders = snakemake.params.get("orders", [None])
         shared, own = _inputs(snakemake, batch=snakemake.params.get("orders") is not None)
+        cfg, reason = snakemake.params.cfg, ""
+        if "basic_model" not in inspect.signature(stage.compute).parameters:
+            basic = shared.pop("basic_model", None)
+            cfg, reason = completed(cfg, basic), "" if basic is None else str(basic["reason"])
         for place, (order, output) in enumerate(zip(orders, snakemake.output, strict=True)):
             of_order = {name: read(paths[place]) for name, paths in own.items()}
             asked = _asked_for(stage, snakemake, order)
-            values = stage.compute(snakemake.params.cfg, **shared, **of_order, **asked)
+            values = nothing(stage.VARIABLES)
+            if not reason:
+                values = stage.compute(cfg, **shared, **of_order, **asked)
             save(
                 output, stage.VARIABLES, values,
-                parameters=snakemake.params.cfg, code=snakemake.params.code,
+                parameters=snakemake.params.cfg, code=snakemake.params.code, reason=reason,
             )  # fmt: skip
+
+
+def completed(cfg: Mapping[str, Any], basic_model: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Return the values of a stage with what its line leaves to the bogie.
+
+    Parameters
+    ----------
+    cfg : mapping
+        Values of a stage; those that the line does not give are None.
+    basic_model : mapping or None
+        Variables of ``basic_model.nc``, whose names are the keys; None where nothing is left.
+    """
+    if basic_model is None:
+        return cfg
+    return {
+        section: {
+            key: float(basic_model[key]) if value is None else value
+            for key, value in values.items()
+        }
+        if isinstance(values, Mapping)
+        else values
+        for section, values in cfg.items()
+    }
+
+
+def nothing(stage: Stage) -> dict[str, np.ndarray]:
+    """Variables of a stage without a result: arrays without an entry, numbers that are none."""
+
+    def alone(variable: Variable) -> np.ndarray:
+        # The last of the states of a variable is the one that is furthest from a result.
+        of_kind = {"real": np.nan, "text": "", "truth": False}
+        return np.array(of_kind.get(variable.kind, ("", *variable.meanings)[-1]))
+
+    def empty(variable: Variable) -> np.ndarray:
+        kinds = {"real": float, "text": "U1", "flag": np.int8, "truth": bool}
+        return np.zeros((0,) * len(variable.dimensions), kinds[variable.kind])
+
+    return {
+        name: empty(variable) if variable.dimensions else alone(variable)
+        for name, variable in stage.variables.items()
+    }
 
 
 def _inputs(snakemake: Any, batch: bool) -> tuple[dict[str, Any], dict[str, Sequence[str]]]:
@@ -92,6 +139,7 @@ def save(
     *,
     parameters: Mapping[str, Any],
     code: str,
+    reason: str = "",
 ) -> None:
     """Write the result file of a stage.
 
@@ -108,6 +156,8 @@ def save(
         The values that made the results, stamped as JSON.
     code : str
         Hash of the code that made the results.
+    reason : str, optional
+        Why there is no result, where there is none.
 
     Raises
     ------
@@ -122,6 +172,8 @@ def save(
         "code_hash": code,
         "parameters": json.dumps(parameters, sort_keys=True, ensure_ascii=False, allow_nan=False),
     }
+    if reason:
+        stamps["no_result"] = reason
     with atomically(path) as part:
         try:
             _write(part, stage, arrays, lengths, stamps)

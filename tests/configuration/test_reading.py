@@ -498,8 +498,8 @@ def test_stage_gives_plain_values(config_folder: Path, name: str) -> None:
 
 
 def test_order_of_keys_does_not_matter(config_folder: Path) -> None:
-    write_line(config_folder, LABEL + "curve: {gamma: -0.03, r_C: 30}\n", "x")
-    write_line(config_folder, "curve: {r_C: 30, gamma: -0.03}\n" + LABEL, "y")
+    write_line(config_folder, LABEL + "curve: {gamma: -0.03, r_C: 26}\n", "x")
+    write_line(config_folder, "curve: {r_C: 26, gamma: -0.03}\n" + LABEL, "y")
     loaded = load(config_folder, overrides={"lines": ["x", "y"]})
 
     x, y = (used_values(loaded, line, "stability_map") for line in ("x", "y"))

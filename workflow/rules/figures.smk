@@ -16,7 +16,7 @@ for figure, (reads, _, shows, kinds) in FIGURES.items():
         name:
             figure
         input:
-            **inputs(reads),
+            **inputs(figure, reads),
         output:
             **outputs(figure),
         log:

@@ -12,6 +12,9 @@ values = partial(used_values, configuration)
 ABSORBERS = {
     name: line.study.evolution_tendency.absorbers for name, line in configuration.lines.items()
 }
+# Keys of the basic model that come from the bogie; rules that read the reduction in any case.
+DERIVED = configuration.derived
+READ_BASIC_MODEL = {"preflight"}
 ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
 # Orders of a job stay together whatever the first and the last order of the run.
 GROUP = (
@@ -54,10 +57,18 @@ def span(batch):
     return f"orders_{batch[0]}_{batch[-1]}"
 
 
-def inputs(stages):
+def read_by(rule_name, stage, line):
+    """Name the files of a stage that a rule reads; none where the line's file says it all."""
+    if stage == "basic_model" and rule_name not in READ_BASIC_MODEL and not DERIVED[line]:
+        return []
+    return files_of(stage, line)
+
+
+def inputs(rule_name, stages):
     """Name the files that a rule reads by the stages that make them."""
     return {
-        stage: partial(lambda w, stage: files_of(stage, w.line), stage=stage) for stage in stages
+        stage: partial(lambda w, stage: read_by(rule_name, stage, w.line), stage=stage)
+        for stage in stages
     }
 
 

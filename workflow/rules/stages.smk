@@ -6,7 +6,7 @@ for stage, (reads, makes) in STAGES.items():
         name:
             stage
         input:
-            **inputs(reads),
+            **inputs(stage, reads),
         output:
             f"results/{{line}}/{stage}.nc",
         log:
@@ -14,6 +14,8 @@ for stage, (reads, makes) in STAGES.items():
         benchmark:
             f"logs/{{line}}/{stage}.tsv"
         threads: 1
+        # What tells at once whether the line can run comes first.
+        priority: stage in ("contact_geometry", "basic_model", "preflight")
         params:
             stage=stage,
             cfg=lambda w, stage=stage: values(w.line, stage),

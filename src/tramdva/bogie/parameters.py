@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from tramdva.quantities import GREATEST_LATERAL_ACCELERATION, Real, Section, quantity
 
-GREATEST_CHORD_ANGLE = 0.05  # rad; linear kinematics and the contact tables end near 0.06
+GREATEST_CHORD_ANGLE = 0.065  # rad, 15 m at the longest wheelbase; linear kinematics beyond 0.08
 
 
 class Track(Section):
@@ -222,6 +222,13 @@ class BareBogie(Section):
     def _fits(self) -> Self:
         if self.axle.half_length > self.wheel.half_distance:
             raise ValueError("axle.half_length must be at most wheel.half_distance")
+        for name in ("stub", "primary", "secondary"):
+            position = getattr(self, name).lateral_position
+            if position > self.wheel.half_distance:
+                raise ValueError(
+                    f"{name}.lateral_position = {position:g} m must be at most "
+                    f"wheel.half_distance = {self.wheel.half_distance:g} m: it is inside the wheels"
+                )
         if self.axle.drop >= self.wheel.radius:
             raise ValueError("axle.drop must be less than wheel.radius")
         return self

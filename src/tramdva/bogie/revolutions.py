@@ -12,9 +12,13 @@ from tramdva.bogie.rough_wheels import RoughBogie, excitation
 
 logger = logging.getLogger(__name__)
 
-STATUS = ("periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite")
+STATUS = (
+    "periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite", "self_excited",
+)  # fmt: skip
 # Velocities among the local variables: they weigh all frequencies alike, positions do not.
 _RATES = np.tile([name.startswith("v") or name.endswith("rate") for name in LOCAL], 4)
+
+_SLOWEST = 2.0 * np.pi  # rad/s; below, drifts of the whole vehicle are no vibrations
 
 
 class Settings(NamedTuple):
@@ -76,7 +80,11 @@ def simulate_wave(
     what the contacts do beyond it must settle. Whether it has, is measured: revolutions
     differ by d_1, d_2, ... With their ratio q (of the slowest decay) the last one differs from its
     limit by d q / (1 - q).
+
+    A vehicle that vibrates by itself has no steady running on such wheels and is not simulated.
     """
+    if self_excited(bogie.eigenvalue):
+        return _not_run(contacts, wheel_radius, settings)
     speed = contacts.places.speed
     excited = excitation(bogie, wheel_radius, order, speed, amplitude, wheels)
     z = np.zeros(2 * bogie.eigenvalue.size)
@@ -102,6 +110,21 @@ def simulate_wave(
     return WaveRun(
         one.times(len(kept)), np.concatenate(kept), number + 1 - len(kept), remaining, status
     )
+
+
+def self_excited(eigenvalue: np.ndarray) -> bool:
+    """Tell whether an oscillation of the linearised vehicle grows; eigenvalues in 1/s."""
+    oscillating = eigenvalue[np.abs(eigenvalue.imag) > _SLOWEST]
+    return bool((oscillating.real > 0.0).any())
+
+
+def _not_run(contacts: wheel_forces.Contacts, wheel_radius: float, settings: Settings) -> WaveRun:
+    """Return a revolution without results."""
+    samples = settings.samples
+    interval = 2.0 * np.pi * wheel_radius / contacts.places.speed / samples
+    shape = (samples, 4, len(contacts.tables), len(integration.RECORDED))
+    time = (np.arange(samples) + 1) * interval
+    return WaveRun(time, np.full(shape, np.nan), 0, np.nan, "self_excited")
 
 
 def _failed(one: "_Revolution", kept: list[np.ndarray], number: int, status: str) -> WaveRun:

@@ -65,7 +65,7 @@ class Line(Section):
         if chord > GREATEST_CHORD_ANGLE:
             raise ValueError(
                 f"bogie.half_wheelbase/track.radius = {chord:.3g} must be at most "
-                f"{GREATEST_CHORD_ANGLE:g} (small angles; the contact tables end beyond)"
+                f"{GREATEST_CHORD_ANGLE:g} (angles are small)"
             )
         return self
 

@@ -16,7 +16,8 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from tramdva.configuration import measured_files, messages, reference, yaml_files
+from tramdva.configuration import following, measured_files, messages, reference, yaml_files
+from tramdva.configuration.everyday import Tram
 from tramdva.configuration.line import Line
 from tramdva.configuration.measured_files import MeasuredFile
 from tramdva.configuration.run import LINE_NAME, Run
@@ -37,6 +38,9 @@ class Configuration:
     run: Run
     lines: Mapping[str, Line]
     measured: Mapping[str, Mapping[str, MeasuredFile]]
+    # By line the keys of the basic model that are derived from its bogie; the values that stand
+    # there in `lines` are the paper's and reach no stage.
+    derived: Mapping[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True)
@@ -78,10 +82,10 @@ def load(
     if overrides:
         layers.append(_Layer("--config", overrides))
     run = None if problems else _validate(Run, layers, problems)
-    lines, measured = _load_lines(folder, layers, problems)
+    lines, measured, derived = _load_lines(folder, layers, problems)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(messages.harmless, problems))))
-    return Configuration(run, lines, measured)
+    return Configuration(run, lines, measured, derived)
 
 
 def load_or_exit(
@@ -121,12 +125,12 @@ def _names(layers: Sequence[_Layer]) -> dict[str, int]:
 
 def _load_lines(
     folder: Path, run_layers: Sequence[_Layer], problems: list[str]
-) -> tuple[dict[str, Line], dict[str, dict[str, MeasuredFile]]]:
+) -> tuple[dict[str, Line], dict[str, dict[str, MeasuredFile]], dict[str, tuple[str, ...]]]:
     base_problems: list[str] = []
     base = _read(folder / "lines" / f"{BASE_LINE}.yaml", folder, base_problems)
     problems += base_problems
     there = sorted(path.stem for path in (folder / "lines").glob("*.yaml"))
-    lines, measured = {}, {}
+    lines, measured, derived = {}, {}, {}
     for name, position in _names(run_layers).items():
         if name not in there:
             where = _origin(("lines", position), run_layers).name
@@ -139,11 +143,37 @@ def _load_lines(
             if own and "label" not in own[0].content:
                 meaning = reference.entries(Line)["label"].meaning
                 problems.append(f"{own[0].name}: label: missing: must be {meaning}")
-            layers = [*base, *own] if base and own else []
+            layers = _followed(base[0], own[0], problems) if base and own else []
         if layers and (line := _validate(Line, layers, problems)):
             lines[name] = line
             measured[name] = _measured(line, folder, layers, problems)
-    return lines, measured
+            own_content = layers[-1].content if name != BASE_LINE else None
+            derived[name] = () if own_content is None else following.derived(own_content)
+            slips = following.contradictions(own_content or {}, line)
+            problems += [f"{layers[-1].name}: {slip}" for slip in slips]
+    return lines, measured, derived
+
+
+def _followed(base: _Layer, own: _Layer, problems: list[str]) -> list[_Layer]:
+    """Layers of a line: the paper's, what follows from its file, the file; none where it is wrong.
+
+    The section `tram` of the file is among what follows.
+    """
+    content = dict(own.content)
+    known: dict[str, Any] = dict.fromkeys(Tram.model_fields)
+    said = content.pop("tram", None)
+    if said is not None and not isinstance(said, Mapping):
+        problems.append(f"{own.name}: tram: must be a map of keys")
+        return []
+    slips = len(problems)
+    tram = _validate(Tram, [_Layer(own.name, known | dict(said or {}))], problems, "tram.")
+    if tram is None:
+        return [base, _Layer(own.name, content)]
+    found = following.Description(content, base.content, tram)
+    problems += [f"{own.name}: {slip}" for slip in found.problems]
+    if len(problems) > slips:
+        return []
+    return [base, _Layer(own.name, found.follows), _Layer(own.name, content)]
 
 
 def _measured(
@@ -179,7 +209,9 @@ def _merge(below: Any, above: Any) -> Any:
     return {**below, **{key: _merge(below.get(key), value) for key, value in above.items()}}
 
 
-def _validate(model: type[_Model], layers: Sequence[_Layer], problems: list[str]) -> _Model | None:
+def _validate(
+    model: type[_Model], layers: Sequence[_Layer], problems: list[str], prefix: str = ""
+) -> _Model | None:
     try:
         return model.model_validate(_merged(layers))
     except ValidationError as error:
@@ -187,7 +219,7 @@ def _validate(model: type[_Model], layers: Sequence[_Layer], problems: list[str]
             if slip["type"] == "too_short" and slip["input"]:
                 continue  # only because its items, reported themselves, did not count
             where = _origin(slip["loc"], layers, missing=slip["type"] == "missing").name
-            problems.append(f"{where}: {messages.in_words(slip, model)}")
+            problems.append(f"{where}: {prefix}{messages.in_words(slip, model)}")
         return None
 
 

@@ -11,11 +11,13 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, get_args, get_origin
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from tramdva.configuration.everyday import Tram
 from tramdva.configuration.line import Line
 from tramdva.configuration.run import Run
 
@@ -89,7 +91,10 @@ def _leaf(field: FieldInfo) -> Entry:
 
 
 def _bare(annotation: Any) -> type:
-    return _bare(get_args(annotation)[0]) if get_origin(annotation) is Annotated else annotation
+    """Return the type without what describes it; of a value that may be missing, its type."""
+    if get_origin(annotation) in (Annotated, UnionType, Union):
+        return _bare(get_args(annotation)[0])
+    return annotation
 
 
 def _first_line(model: type[BaseModel]) -> str:
@@ -104,7 +109,10 @@ def json_schema() -> dict[str, Any]:
     """
     line = Line.model_json_schema(ref_template="#/$defs/{model}")
     run = Run.model_json_schema(ref_template="#/$defs/{model}")
-    definitions = line.pop("$defs") | run.pop("$defs") | {"Line": line, "Run": run}
+    tram = Tram.model_json_schema()
+    line["properties"]["tram"] = {"$ref": "#/$defs/Tram"}
+    parts = {"Line": line, "Run": run, "Tram": tram}
+    definitions = line.pop("$defs") | run.pop("$defs") | parts
     for name, definition in definitions.items():
         if name != "AbsorberVariant":
             definition.pop("required", None)
@@ -119,8 +127,8 @@ def json_schema() -> dict[str, Any]:
 def table() -> str:
     """Return the parameters as a table in Markdown."""
     rows = ["| key | meaning | unit | allowed | origin |", "|---|---|---|---|---|"]
-    for model in (Line, Run):
-        for path, entry in entries(model).items():
+    for model, prefix in ((Tram, "tram."), (Line, ""), (Run, "")):
+        for path, entry in entries(model, prefix).items():
             if entry.kind == "section":
                 continue
             allowed = "" if entry.low is None else f"{short(entry.low)} ... {short(entry.high)}"

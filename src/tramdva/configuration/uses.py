@@ -7,6 +7,8 @@ from typing import Any
 
 from tramdva.bogie.parameters import BareBogie, BogieAbsorber
 from tramdva.configuration import measured_files
+from tramdva.configuration.following import BASIC_MODEL
+from tramdva.configuration.plan import plan
 from tramdva.configuration.reading import Configuration
 from tramdva.contact.parameters import ContactProfiles
 
@@ -107,9 +109,22 @@ USES: dict[str, tuple[str, ...]] = {
         "bogie.half_wheelbase",
         "track.radius",
         "study.tendency_maps.radius.min",
+        "study.design_sheet.conditions.radius.min",
         "measured.wheel",
         "measured.rail",
         "numerics.contact_geometry",
+    ),
+    "basic_model": (
+        *_BOGIE,
+        *(path for path in BASIC_MODEL if path not in _BOGIE),
+        "study.bogie_modes.frequency",
+    ),
+    "preflight": (
+        *_BOGIE,
+        "forced_excitation.B",
+        "study.bogie_modes.frequency",
+        "measured.wheel",
+        "plan",
     ),
     "curving_equilibrium": (*_BOGIE, "study.bogie_modes.frequency"),
     "bogie_modes": (*_BOGIE, "study.bogie_modes", "numerics.bogie_modes"),
@@ -197,6 +212,8 @@ USES: dict[str, tuple[str, ...]] = {
         "study.design_sheet",
         "numerics.robust_tuning",
     ),
+    "preflight_chart": _FIGURE,
+    "preflight_page": _FIGURE,
     "fig02_stability_map": (*_FIGURE_OF_VARIANTS, *_FIGURE_WITH_ABSORBER),
     "fig03_bifurcation_diagram": _FIGURE_OF_VARIANTS,
     "fig04_hopf_curves": _FIGURE,
@@ -259,7 +276,8 @@ def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
     -------
     dict
         Plain nested maps, lists, numbers and texts in SI units; the entries of `study` and
-        `numerics` are those of this stage; `measured` holds the hashes of measured files.
+        `numerics` are those of this stage; `plan` is what a run computes; `measured` holds the
+        hashes of measured files. What the stage `basic_model` derives from the bogie is None.
     """
     everything = config.lines[line].model_dump(mode="json")
     measured = config.measured[line]
@@ -267,6 +285,10 @@ def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
         what: measured[what].sha256 if what in measured else "" for what in measured_files.KEYS
     }
     everything["numerics"] = config.run.numerics.model_dump(mode="json")
+    everything["plan"] = plan(config.run, config.lines[line])
+    for path in config.derived[line]:
+        section, key = path.split(".")
+        everything[section][key] = None
     values = _select(everything, [tuple(path.split(".")) for path in USES[name]])
     for section in ("study", "numerics"):
         if section in values:

@@ -53,3 +53,9 @@ def best_design(aim: np.ndarray, c_T: np.ndarray, d_T: np.ndarray) -> tuple[floa
 def axis(limits: Mapping[str, float], points: int) -> np.ndarray:
     """Values (points,) at equal distances between ``min`` and ``max``."""
     return np.linspace(limits["min"], limits["max"], points)
+
+
+def reaching(limits: Mapping[str, float], own: float) -> dict[str, float]:
+    """Return limits of an axis, widened where the line's own value lies beyond their end."""
+    beyond = own > limits["max"]
+    return {"min": limits["min"], "max": 1.25 * own if beyond else limits["max"]}

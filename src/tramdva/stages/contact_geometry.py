@@ -12,9 +12,6 @@ from tramdva.variables.contact_geometry import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
 
-# Varied conditions are curves sharper than the line's by this factor of the radius at most.
-SHARPEST = 0.8
-
 
 def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict[str, np.ndarray]:
     """Contact tables of the line's profiles: variables of ``contact_geometry.nc``.
@@ -35,4 +32,6 @@ def compute(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> dict
 
 def _sharpest_curve(cfg: Mapping[str, Any]) -> float:
     """Radius in m of the sharpest curve that any stage asks for."""
-    return min(SHARPEST * cfg["track"]["radius"], cfg["study"]["radius"]["min"])
+    study = cfg["study"]
+    varied = study["conditions"]["radius"]["min"] * cfg["track"]["radius"]
+    return min(varied, study["radius"]["min"])

@@ -73,6 +73,7 @@ def compute(
             [list(wheel_loads(run.straight_equilibrium).values()) for run in runs]
         ),
         "angle_of_attack": np.array([angle_of_attack(run.curve, run.equilibrium) for run in runs]),
+        "needed_yaw": np.array([run.equilibrium.needed_yaw for run in runs]),
         "residual": np.array([run.equilibrium.residual for run in runs]),
         "status": np.array([run.equilibrium.status for run in runs]),
     }

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.stages.axes import axis
+from tramdva.stages.axes import axis, reaching
 from tramdva.stages.wheelset_sections import absorber_coordinates, absorber_variants
 from tramdva.variables.stability_map import VARIABLES
 from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
@@ -54,7 +54,9 @@ def compute(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """
     baseline = wheelset_parameters(cfg)
     points = cfg["numerics"]["points"]
-    axes = {key: axis(cfg["study"][key], points) for key in ("c_A", "c_R", "d_T", "c_T")}
+    limits = {key: cfg["study"][key] for key in ("c_A", "c_R", "d_T", "c_T")}
+    limits |= {key: reaching(limits[key], getattr(baseline, key)) for key in ("c_A", "c_R")}
+    axes = {key: axis(ends, points) for key, ends in limits.items()}
     variants = absorber_variants(cfg)
     plane = {"c_A": axes["c_A"][None, :], "c_R": axes["c_R"][:, None]}
     maps, lines = [], []

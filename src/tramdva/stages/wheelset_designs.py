@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.stages.axes import axis, best_design, design_axis
+from tramdva.stages.axes import axis, best_design, design_axis, reaching
 from tramdva.variables.wheelset_designs import VARIABLES
 from tramdva.wheelset.model import WheelsetParameters, wheelset_parameters
 from tramdva.wheelset.response import peak_receptance, response
@@ -38,7 +38,10 @@ def compute(cfg: Mapping[str, Any]) -> dict[str, np.ndarray]:
     forced = operating._replace(B=cfg["forced_excitation"]["B"])
     c_T = design_axis(study["c_T"], numerics["c_T_points"], operating.c_T)
     d_T = design_axis(study["d_T"], numerics["d_T_points"], operating.d_T)
-    c_A, c_R = (axis(study[name], numerics["map_points"]) for name in ("c_A", "c_R"))
+    c_A, c_R = (
+        axis(reaching(study[name], getattr(operating, name)), numerics["map_points"])
+        for name in ("c_A", "c_R")
+    )
     frequency = axis(study["frequency"], numerics["frequency_points"])
     own = {"c_T": c_T[None, :], "d_T": d_T[:, None]}
     plane = {"c_A": c_A[None, :], "c_R": c_R[:, None]}

@@ -26,6 +26,9 @@ VARIABLES = Stage(
         "wheel_load": real("absorber wheel", "N", "vertical force of the rail in the curve"),
         "straight_wheel_load": real("absorber wheel", "N", "the same on the straight track"),
         "angle_of_attack": real("absorber axle", "rad", "yaw against the rail, outwards"),
+        "needed_yaw": real(
+            "absorber", "rad", "yaw of a wheel that the contact tables do not reach, else NaN"
+        ),
         "residual": real("absorber", "m/s^2", "largest remaining acceleration"),
         "status": flag("absorber", CURVING_STATUS, "status"),
     },

@@ -11,7 +11,7 @@ VARIABLES = Stage(
     {
         "variation": text("variation", "what is changed; the first is the line as configured"),
         "kind": text(
-            "variation", "as configured, theory, discretisation, or comparison: not counted"
+            "variation", "as configured, theory, discretisation, comparison (not counted)"
         ),
         "growth_rate": real("variation", "1/s", "largest growth rate at the B of the line"),
         "frequency": real("variation", "Hz", "its frequency"),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from tramdva.variables import (
     absorber_tuning,
+    basic_model,
     bogie_designs,
     bogie_linearisation,
     bogie_modes,
@@ -25,6 +26,7 @@ from tramdva.variables import (
     hopf_curves,
     hopf_points,
     limit_cycles,
+    preflight,
     robust_tuning,
     robustness_sample,
     stability_map,
@@ -46,6 +48,8 @@ STAGES: dict[str, Stage] = {
         absorber_tuning,
         frequency_response,
         contact_geometry,
+        basic_model,
+        preflight,
         curving_equilibrium,
         bogie_modes,
         growth_band,
