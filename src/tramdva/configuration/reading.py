@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from tramdva.configuration import measured_files, messages, reference, yaml_files
+from tramdva.configuration import grids, measured_files, messages, reference, yaml_files
 from tramdva.configuration.line import Line
 from tramdva.configuration.measured_files import MeasuredFile
 from tramdva.configuration.run import LINE_NAME, Run
@@ -79,6 +79,8 @@ def load(
         layers.append(_Layer("--config", overrides))
     run = None if problems else _validate(Run, layers, problems)
     lines, measured = _load_lines(folder, layers, problems)
+    if run is not None:
+        problems += grids.problems(run.numerics, lines)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(messages.harmless, problems))))
     return Configuration(run, lines, measured)
