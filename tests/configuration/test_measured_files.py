@@ -43,7 +43,7 @@ def test_out_of_roundness_in_another_unit(config_folder: Path, unit: float) -> N
     words = said(config_folder)
 
     assert words.startswith(f"{path}: the deviation varies by")
-    assert "at least 2 um are needed (deviation in um, not in mm or m)" in words
+    assert "at least 1 um are needed (deviation in um, not in mm or m)" in words
     assert "\n" not in words
 
 

@@ -12,7 +12,16 @@ from tramdva.bogie.rough_wheels import RoughBogie, excitation
 
 logger = logging.getLogger(__name__)
 
-STATUS = ("periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite")
+STATUS = (
+    "periodic",
+    "not_periodic",
+    "contact_lost",
+    "outside_profile",
+    "not_finite",
+    "no_equilibrium",
+    "self_excited",
+)
+SLOWEST = 2.0 * np.pi  # 1/s, of an oscillation; slower motions are no vibration
 # Velocities among the local variables: they weigh all frequencies alike, positions do not.
 _RATES = np.tile([name.startswith("v") or name.endswith("rate") for name in LOCAL], 4)
 
@@ -107,6 +116,36 @@ def simulate_wave(
 def _failed(one: "_Revolution", kept: list[np.ndarray], number: int, status: str) -> WaveRun:
     results = np.concatenate(kept)
     return WaveRun(one.times(len(kept)), np.full_like(results, np.nan), number, np.nan, status)
+
+
+def hindrance(bogie: RoughBogie, converged: bool) -> str:
+    """Why no order can run periodically: `no_equilibrium`, `self_excited`, or nothing.
+
+    Parameters
+    ----------
+    bogie : RoughBogie
+        Linearised in its curve; one that vibrates by itself answers no wave steadily, which its
+        eigenvalues tell before minutes of simulation do.
+    converged : bool
+        Whether it has an equilibrium there.
+    """
+    if not converged or not np.isfinite(bogie.eigenvalue).all():
+        return "no_equilibrium"
+    oscillating = np.abs(bogie.eigenvalue.imag) >= SLOWEST
+    return "self_excited" if (bogie.eigenvalue.real[oscillating] >= 0.0).any() else ""
+
+
+def not_run(
+    contacts: wheel_forces.Contacts, wheel_radius: float, settings: Settings, status: str
+) -> WaveRun:
+    """A run that was not made: its times, NaN, and the status that says why.
+
+    Parameters are those of `simulate_wave`.
+    """
+    turn, count = 2.0 * np.pi * wheel_radius / contacts.places.speed, settings.samples
+    times = (np.arange(settings.kept * count) + 1) * (turn / count)
+    shape = times.size, 4, len(contacts.tables), len(integration.RECORDED)
+    return WaveRun(times, np.full(shape, np.nan), 0, np.nan, status)
 
 
 class _Revolution:

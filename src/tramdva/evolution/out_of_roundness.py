@@ -17,7 +17,7 @@ from tramdva.contact.two_columns import Layout, read_columns
 
 REFERENCE = 1e-6  # m, of levels
 LARGEST_DEVIATION = 5e-3  # m; beyond, a file is in other units or of no wheel
-SMALLEST_RANGE = 2e-6  # m; less than what gauges resolve and what turning leaves of a wheel
+SMALLEST_RANGE = 1e-6  # m; less than what gauges resolve and what turning leaves of a wheel
 LARGEST_GAP = 15.0  # degrees between neighbours
 
 

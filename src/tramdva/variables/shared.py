@@ -26,7 +26,15 @@ BOGIE_ABSORBERS = {
     "d_T": real("absorber", "N m s/rad", "damping of the absorber (N s/m if it translates)"),
 }
 
-WAVE_STATUS = ("periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite")
+WAVE_STATUS = (
+    "periodic",
+    "not_periodic",
+    "contact_lost",
+    "outside_profile",
+    "not_finite",
+    "no_equilibrium",
+    "self_excited",
+)
 
 PEAK_STATUS = ("found", "no_peak")
 
