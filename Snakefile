@@ -103,7 +103,13 @@ FIGURES = {
     ),
     "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
     "design_sheet": (
-        ["stability_map", "bogie_modes", "tendency_maps", "robust_tuning"],
+        [
+            "stability_map",
+            "curving_equilibrium",
+            "bogie_modes",
+            "tendency_maps",
+            "robust_tuning",
+        ],
         "Design sheet",
         "Design sheet",
         SHEET,

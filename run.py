@@ -54,6 +54,18 @@ def main(arguments: list[str]) -> None:
         become(command(arguments))
 
 
+def cannot(error: OSError) -> str:
+    """Say in a line what the system refused, and what helps where nothing can be written."""
+    place = error.filename or ROOT
+    why = (error.strerror or str(error)).lower()
+    if os.access(ROOT, os.W_OK):
+        return f"tramdva: {place}: {why}"
+    return (
+        f"tramdva: {place}: {why}; {ROOT} cannot be written, so that its environment cannot be "
+        "set up: copy it to a folder of your own and run it there"
+    )
+
+
 def command(arguments: list[str]) -> list[str]:
     """Return the program, with its arguments, that the arguments of this one ask for."""
     if arguments[:1] == ["test"]:
@@ -282,5 +294,7 @@ if __name__ == "__main__":
         sys.exit(str(error))
     except subprocess.CalledProcessError as error:
         sys.exit(f"tramdva: set-up failed: {' '.join(map(str, error.cmd))}")
+    except OSError as error:
+        sys.exit(cannot(error))
     except KeyboardInterrupt:
         sys.exit("tramdva: interrupted; the next start completes the set-up")

@@ -31,7 +31,8 @@ def draw(modes: dict[str, np.ndarray], wheel_radius: float) -> Figure:
         axes.set_aspect("equal")
         axes.set_title(figures.mode_name(str(name)), loc="left", fontsize="medium")
         if np.isnan(modes["shape_frequency"][row]):
-            figures.note(axes, "no such mode")
+            why = figures.status_words(modes["status"][:1], "converged")
+            figures.note(axes, (why and f"not computed:\n{why}") or "no such mode")
             continue
         draw_mode(axes, modes, row, wheel_radius)
         axes.text(

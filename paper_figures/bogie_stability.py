@@ -43,7 +43,8 @@ def draw_growth(axes: Axes, modes: dict[str, np.ndarray], operating_B: float) ->
     """Draw the largest growth rate of each absorber over the friction decrease."""
     growth = modes["largest_growth_rate"]
     if np.isnan(growth).all():
-        figures.note(axes, "no equilibrium in the curve")
+        why = figures.status_words(modes["status"], "converged")
+        figures.note(axes, f"not computed:\n{why or 'no oscillation in the band'}")
     for row, name in enumerate(modes["absorber"]):
         words = figures.design_name(str(name))
         critical = modes["critical_friction_decrease"][row]
@@ -68,7 +69,8 @@ def draw_map(figure: Figure, axes: Axes, modes: dict[str, np.ndarray], motion: s
     stiffness, growth = modes["map_c_T"] / unit, modes["map_growth_rate"]
     levels = np.arange(-18.0, 1.1, 1.0)
     if np.isnan(growth).all():
-        figures.note(axes, "no equilibrium in the curve")
+        why = figures.status_words([modes["map_status"]], "converged")
+        figures.note(axes, f"not computed:\n{why or 'no oscillation in the band'}")
     else:
         image = axes.contourf(
             stiffness, modes["map_d_T"], growth, levels, cmap=figures.SPREAD, extend="both"

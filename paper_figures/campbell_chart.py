@@ -35,6 +35,9 @@ def draw(modes: dict[str, np.ndarray], wheel_radius: float, speed: float) -> Fig
     for name, frequency in zip(modes["shape_mode"], modes["shape_frequency"], strict=True):
         if np.isfinite(frequency):
             draw_level(axes, figures.mode_name(str(name)), float(frequency), fastest)
+    if not np.isfinite(modes["shape_frequency"]).any():
+        why = figures.status_words(modes["status"][:1], "converged")
+        figures.note(axes, f"no modes of the bogie:\n{why or 'none of them was found'}")
     axes.axvline(speed * KMH, color="0.5", linestyle=":", linewidth=0.8)
     axes.text(
         1.0, 1.06, "order of the polygon", transform=axes.transAxes, ha="right", va="bottom",

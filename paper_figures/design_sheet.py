@@ -10,9 +10,10 @@ from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
 from tramdva import results
-from tramdva.report import design_sheet, design_sheet_page, figures
-from tramdva.report.design_sheet import NAMES, NOMINAL, NONE, PAPER, ROBUST, Sheet, Table
+from tramdva.report import design_sheet, design_sheet_page, figures, sheet_numbers, sheet_verdicts
+from tramdva.report.design_sheet import Sheet, Table
 from tramdva.report.script import run
+from tramdva.report.sheet_verdicts import NAMES, NOMINAL, NONE, PAPER, ROBUST
 from tramdva.results import atomically
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
@@ -25,6 +26,13 @@ LOOKS = {
     ROBUST: {"color": "black", "linestyle": "-"},
 }
 MARKS = {PAPER: "s", NOMINAL: "^", ROBUST: "o"}
+# Why there is nothing to draw, by the state of the search.
+EMPTY = {
+    "no_equilibrium": "not computed:\nno steady running in the curve",
+    "not_computed": "not computed: vibrates by itself\nwithout absorbers in every condition",
+    "nothing_grows": "no order grows\nin the conditions that were computed",
+    "nothing_to_tune": "no order grows\nin the conditions that were computed",
+}
 SHARES = (0.0, 0.05, 0.5, 0.95, 1.0)  # of the drawn cases below: extremes, bar and median
 LEVELS = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0])
 
@@ -39,6 +47,7 @@ def main(
     bogie_modes: str,
     tendency_maps: str,
     robust_tuning: str,
+    curving_equilibrium: str,
 ) -> None:
     """Write the sheet as PDF and as a page."""
     tuning = results.read(robust_tuning)
@@ -48,6 +57,7 @@ def main(
         results.read(stability_map),
         results.read(bogie_modes),
         results.read(tendency_maps),
+        results.read(curving_equilibrium),
     )
     with figures.style(STYLE):
         with atomically(pdf) as part:
@@ -126,7 +136,7 @@ def first_page(content: Sheet) -> Figure:
     figure = paper()
     write(figure, (MARGIN, 14.0), content.title, fontsize=13, fontweight="bold")
     y = paragraphs(figure, 24.0, content.verdicts)
-    for part in (content.absorber, content.peaks, content.orders):
+    for part in (content.running, content.absorber, content.peaks, content.orders):
         y = table(figure, y + 1.0, part)
     write(figure, (WIDTH - MARGIN, HEIGHT - 10.0), "1 of 2", ha="right")
     return figure
@@ -176,7 +186,9 @@ def draw_distribution(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
     axes.set_title("growth left in the band", fontsize="medium")
     drawn = tuning["varied"] == "all"
     if not np.isfinite(tuning["factor"][:, drawn]).any():
-        figures.nothing(axes, "no order grows in any condition")
+        figures.nothing(
+            axes, EMPTY.get(sheet_verdicts.state_of_tuning(tuning), "nothing to compare")
+        )
         return
     for k in (NONE, *known(tuning)):
         values = np.sort(tuning["factor"][k, drawn])
@@ -196,7 +208,7 @@ def draw_distribution(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
 def draw_peaks(axes: Axes, tuning: dict[str, np.ndarray]) -> None:
     """Draw the growth left at each peak, the worse wheel: median, 5 to 95 %, extremes."""
     axes.set_title("growth left at the peaks, worse wheel", fontsize="medium")
-    places = [design_sheet.place_of(tuning["quantile"], share) for share in SHARES]
+    places = [sheet_numbers.place_of(tuning["quantile"], share) for share in SHARES]
     rows, seen = [str(name).replace("_", "\n") for name in tuning["peak"]], False
     for row in range(len(rows)):
         for place, k in enumerate(known(tuning)):
@@ -242,7 +254,7 @@ def draw_map(axes: Axes, tuning: dict[str, np.ndarray], cfg: dict) -> None:
         figures.nothing(axes, "nothing to tune")
         return
     power = int(np.floor(np.log10(tuning["map_c_T"][-1])))
-    scale, units = 10.0**power, design_sheet.unit_names(cfg)
+    scale, units = 10.0**power, sheet_verdicts.unit_names(cfg)
     stiffness = tuning["map_c_T"] / scale
     image = axes.contourf(
         stiffness, tuning["map_d_T"], 100 * worst, 100 * LEVELS, cmap=figures.SPREAD, extend="both"

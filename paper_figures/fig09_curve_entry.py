@@ -45,6 +45,9 @@ def main(*, pdf: str, png: str, code: str, cfg: dict, curve_entry: str, bogie_mo
 def draw(ride: dict[str, np.ndarray], modes: dict[str, np.ndarray], entry: float) -> Figure:
     """Draw the whole ride and its last periods."""
     figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
+    if why := figures.status_words(modes["status"][: len(ride["absorber"])], "converged"):
+        figures.nothing(figure.subplots(), f"The bogie has no steady running in its curve:\n{why}")
+        return figure
     whole, detail = figure.subplots(1, 2, width_ratios=[3, 1])
     wheel = int(np.flatnonzero(ride["wheel"] == WHEEL)[0])
     velocity = ride["contact_point_lateral_velocity"][:, wheel] / MILLI
@@ -89,6 +92,9 @@ def draw_detail(
 ) -> None:
     """Draw the last periods."""
     time = ride["time"]
+    if not np.isfinite(frequency):
+        figures.nothing(axes, "no oscillation\nin the band")
+        return
     shown = time > time[-1] - PERIODS / frequency
     for row, values in enumerate(velocity):
         axes.plot(time[shown], values[shown], **{**LOOKS[row], "linewidth": 1.2})

@@ -37,6 +37,9 @@ def draw(tendency: dict[str, np.ndarray]) -> Figure:
     panels = figure.subplots(len(wheels), 2, width_ratios=[5, 3], squeeze=False)
     for row, wheel in enumerate(wheels):
         whole, detail = panels[row]
+        if not np.isfinite(tendency["linearised_normalised"][:, row]).any():
+            figures.nothing(whole, "no growth was computed:\n" + reasons(tendency))
+            figures.nothing(detail, "not computed")
         draw_wheel(whole, tendency, row)
         label_peaks(whole, tendency, row)
         draw_wheel(detail, tendency, row)
@@ -74,6 +77,9 @@ def enlarge(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     axis = tendency["frequency_axis"]
     end = axis[0] + DETAIL * (axis[-1] - axis[0])
     low = tendency["linearised_normalised"][:, row][:, axis <= end]
+    if not np.isfinite(low).any():
+        axes.set(xlim=(axis[0], end))
+        return
     bottom, top = np.nanmin(low), np.nanmax(low)
     margin = 0.08 * (top - bottom)
     axes.set(xlim=(axis[0], end), ylim=(bottom - margin, top + margin))
@@ -98,12 +104,23 @@ def label_peaks(axes: Axes, tendency: dict[str, np.ndarray], row: int) -> None:
     axes.margins(y=0.14)
 
 
+def reasons(tendency: dict[str, np.ndarray]) -> str:
+    """Say why each absorber has no simulated order."""
+    return "\n".join(
+        f"{figures.design_name(str(name))}: {figures.status_words(status, 'periodic')}"
+        for name, status in zip(tendency["absorber"], tendency["status"], strict=True)
+    )
+
+
 def legend(tendency: dict[str, np.ndarray]) -> list:
     """Entries of the legend: absorbers as lines, simulations as marks."""
     entries = []
     for name in map(str, tendency["absorber"]):
         words = figures.design_name(name)
         entries.append(figures.key(f"{words}, linearised", **LOOKS[name]))
+        if why := figures.status_words(tendency["status"][len(entries) // 2], "periodic"):
+            entries.append(figures.key(f"{words}: {why}", linestyle="none"))
+            continue
         mark = {"color": LOOKS[name]["color"], "marker": MARKERS[name], "markersize": 2.6}
         entries.append(figures.key(f"{words}, simulated orders", linestyle="none", **mark))
     return entries

@@ -17,7 +17,6 @@ LOOKS = {
     "discretisation": {"marker": "s", "color": "0.5"},
     "comparison": {"marker": "x", "color": "C1"},
 }
-LABELS = {"comparison": "comparison, not in the band"}
 REACH = 2.0  # of the band that is in view; what lies farther is told by its number
 
 
@@ -35,7 +34,10 @@ def draw(band: dict[str, np.ndarray], operating_B: float) -> Figure:
     if not np.isfinite(band["growth_rate"][0]):
         for axes in (left, right):
             figures.note(axes, "no equilibrium in the curve")
-    names = list(band["variation"])
+    names = [
+        f"{name} (not in the band)" if kind == "comparison" else str(name)
+        for name, kind in zip(band["variation"], band["kind"], strict=True)
+    ]
     draw_values(left, band, "growth_rate", (band["growth_low"], band["growth_high"]))
     ends = (band["critical_low"], band["critical_high"])
     top = float(band["largest_friction_decrease"])
@@ -75,7 +77,7 @@ def draw_values(
         kind = str(band["kind"][row])
         if np.isfinite(value) and view[0] <= value <= view[1]:
             axes.plot(
-                value, row, linestyle="none", markersize=4, label=LABELS.get(kind, kind),
+                value, row, linestyle="none", markersize=4, label=kind,
                 **LOOKS[kind],
             )  # fmt: skip
             continue

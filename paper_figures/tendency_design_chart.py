@@ -44,6 +44,12 @@ def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rot
     return figure
 
 
+def reason(maps: dict[str, np.ndarray]) -> str:
+    """Say why there is no chart where no speed has a steady running."""
+    none = list(maps["absorber"]).index("none")
+    return figures.status_words(maps["speed_status"][none], "converged").replace("; ", "\n")
+
+
 def draw_map(
     axes: Axes,
     maps: dict[str, np.ndarray],
@@ -53,6 +59,8 @@ def draw_map(
 ):
     """Draw the factor over stiffness and damping; marks: the line's absorbers and the best."""
     stiffness = maps["map_c_T"] / unit
+    if not np.isfinite(factor).any():
+        figures.note(axes, "not computed:\n" + (reason(maps) or "no growth without absorbers"))
     image = axes.contourf(
         stiffness, maps["map_d_T"], factor, LEVELS, cmap=figures.SPREAD, extend="both"
     )

@@ -36,12 +36,15 @@ def draw(tendency: dict[str, np.ndarray], worn: Sequence[dict[str, np.ndarray] |
     for row, wheel in enumerate(wheels):
         polar = figure.add_subplot(grid[row, 0], projection="polar")
         if worn[row] is None:
-            figures.nothing(polar, "no order ran steadily")
+            none = list(tendency["absorber"]).index("none")
+            why = figures.status_words(tendency["status"][none], "periodic")
+            figures.nothing(polar, "\n".join(["no order ran steadily", *why.split("; ")]))
         else:
             draw_wheel(polar, worn[row], row)
         spectrum = figure.add_subplot(grid[row, 1])
         draw_orders(spectrum, tendency, row)
-        polar.set_title(f"{str(wheel).replace('_', ' ')} wheel, {polar.get_title()}")
+        words = [f"{str(wheel).replace('_', ' ')} wheel", polar.get_title()]
+        polar.set_title(", ".join(filter(None, words)))
     return figure
 
 

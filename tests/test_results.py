@@ -18,6 +18,7 @@ from tramdva import results
 from tramdva.variables.kinds import Stage, real
 from tramdva.variables.registry import STAGES
 
+PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "netCDF4")
 LENGTHS = {"absorber": 3, "design": 4, "frequency": 7, "multiplier": 6}
 
 
@@ -70,6 +71,8 @@ def test_dataset_follows_the_registry(tmp_path: Path, stage: str) -> None:
         "title": STAGES[stage].title,
         "stage": stage,
         "tramdva_version": version("tramdva"),
+        "packages": ", ".join(f"{name} {version(name)}" for name in PACKAGES),
+        "content_hash": dataset.attrs["content_hash"],
         "code_hash": "abc",
         "parameters": '{"a": [2], "b": 1.0}',
     }
@@ -83,6 +86,24 @@ def test_dataset_follows_the_registry(tmp_path: Path, stage: str) -> None:
             assert stored.dtype == np.int8
             assert stored.attrs["flag_meanings"].split() == list(variable.meanings)
             assert stored.attrs["flag_values"].tolist() == list(range(len(variable.meanings)))
+
+
+@pytest.mark.parametrize("name", ["frequency", "residual", "absorber", "parameters"])
+def test_changed_values_are_found(tmp_path: Path, name: str) -> None:
+    save(tmp_path / "x.nc", values_of("hopf_points"))
+    results.verify(tmp_path / "x.nc")
+    with netCDF4.Dataset(tmp_path / "x.nc", "a") as dataset:
+        if name == "parameters":
+            dataset.parameters = '{"a": [3], "b": 1.0}'
+        else:
+            dataset.set_auto_chartostring(False)
+            values = dataset[name][...]
+            values[0] = values[-1]  # as many bytes as before, and allowed
+            dataset[name][...] = values
+
+    for way in (results.verify, results.read):
+        with pytest.raises(ValueError, match=r"x\.nc: its values are not those that were saved"):
+            way(tmp_path / "x.nc")
 
 
 @pytest.mark.parametrize("stage", STAGES)

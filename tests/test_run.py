@@ -372,3 +372,31 @@ def test_standard_library_only(root: Path) -> None:
     }
 
     assert names <= set(sys.stdlib_module_names)
+
+
+def test_folder_that_cannot_be_written_is_told_in_a_line(root: Path, tmp_path: Path) -> None:
+    """The whole script in a copy of a checkout, set up elsewhere; root may write everywhere."""
+    text = (root / "run.py").read_text()
+    refused = "raise PermissionError(13, 'Permission denied', str(STAMP))"
+    (tmp_path / "run.py").write_text(text.replace("STAMP.unlink(missing_ok=True)", refused))
+    for name in ("pyproject.toml", "requirements.lock"):
+        (tmp_path / name).write_bytes((root / name).read_bytes())
+    ended = subprocess.run(
+        [sys.executable, tmp_path / "run.py", "-n"], capture_output=True, text=True, check=False
+    )
+
+    assert ended.returncode == 1
+    assert ended.stderr.startswith(f"tramdva: {tmp_path}/.venv/tramdva-stamp: permission denied")
+    assert ended.stderr.count("\n") == 1
+
+
+def test_folder_that_cannot_be_written_says_what_helps(
+    run: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    error = PermissionError(30, "Read-only file system", str(run.STAMP))
+    monkeypatch.setattr(run.os, "access", lambda path, mode: False)
+
+    assert run.cannot(error) == (
+        f"tramdva: {run.STAMP}: read-only file system; {run.ROOT} cannot be written, so that its "
+        "environment cannot be set up: copy it to a folder of your own and run it there"
+    )

@@ -23,7 +23,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import ArrayLike
 
-from tramdva.running import job, supervision
+from tramdva.running import job, stamps, supervision
 from tramdva.variables.kinds import Stage, Variable
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 COMPRESSION = {"zlib": True, "complevel": 4, "shuffle": True}
 QUICK_COMPRESSION = COMPRESSION | {"complevel": 1}
+CONTENT = "content_hash"  # the stamp of all others and of the values
 
 
 def make(snakemake: Any, stage: ModuleType) -> None:
@@ -165,18 +166,20 @@ def save(
         Where a variable is unknown, missing, of a wrong type, or of a shape that does not fit.
     """
     arrays, lengths = _validated(stage, values)
-    stamps = {
+    own = {
         "title": stage.title,
         "stage": stage.name,
         "tramdva_version": version("tramdva"),
+        "packages": stamps.package_versions(),
         "code_hash": code,
         "parameters": json.dumps(parameters, sort_keys=True, ensure_ascii=False, allow_nan=False),
     }
     if reason:
-        stamps["no_result"] = reason
+        own["no_result"] = reason
+    own[CONTENT] = stamps.content_hash(_as_stored(arrays), _words(own))
     with atomically(path) as part:
         try:
-            _write(part, stage, arrays, lengths, stamps)
+            _write(part, stage, arrays, lengths, own)
         except RuntimeError as error:
             raise OSError(f"{path}: cannot be written, disk full? ({error})") from None
 
@@ -213,9 +216,10 @@ def read(path: str | Path) -> dict[str, np.ndarray]:
     Raises
     ------
     ValueError
-        Where the file is no complete result of this version of tramdva.
+        Where the file is no complete result of this version of tramdva, or was changed since.
     """
     with _opened(path) as dataset:
+        _check_content(path, dataset)
         variables = _descriptions()[dataset.stage].variables
         return {name: _plain(dataset[name], variable) for name, variable in variables.items()}
 
@@ -229,6 +233,18 @@ def read_stamps(path: str | Path) -> dict[str, str]:
     """Return what a result file says about its making: stage, code_hash, parameters and so on."""
     with _opened(path) as dataset:
         return {name: dataset.getncattr(name) for name in dataset.ncattrs()}
+
+
+def verify(path: str | Path) -> None:
+    """Refuse a file whose values are not those that were saved.
+
+    Raises
+    ------
+    ValueError
+        Where the file is no complete result of this version of tramdva, or was changed since.
+    """
+    with _opened(path) as dataset:
+        _check_content(path, dataset)
 
 
 def load(path: str | Path) -> xarray.Dataset:
@@ -309,15 +325,38 @@ def _encoded_flag(array: np.ndarray, meanings: tuple[str, ...]) -> np.ndarray:
     return array.astype(np.int8)
 
 
+def _as_stored(arrays: Mapping[str, np.ndarray]) -> Iterator[tuple[str, np.ndarray]]:
+    """Yield arrays as they are read without their meanings: texts as single letters."""
+    for name, array in arrays.items():
+        yield name, np.frombuffer(array.tobytes(), "S1") if array.dtype.kind == "S" else array
+
+
+def _words(own: Mapping[str, str]) -> str:
+    return json.dumps({name: own[name] for name in sorted(own) if name != CONTENT})
+
+
+def _check_content(path: str | Path, dataset: netCDF4.Dataset) -> None:
+    names = _descriptions()[dataset.stage].variables
+    dataset.set_auto_chartostring(False)
+    stored = ((name, np.asarray(dataset[name][...])) for name in names)
+    own = {name: dataset.getncattr(name) for name in dataset.ncattrs()}
+    if own.get(CONTENT) != stamps.content_hash(stored, _words(own)):
+        raise ValueError(
+            f"{path}: its values are not those that were saved: it was changed afterwards; remove "
+            "it and run the pipeline again"
+        )
+    dataset.set_auto_chartostring(True)
+
+
 def _write(
     path: Path,
     stage: Stage,
     arrays: Mapping[str, np.ndarray],
     lengths: Mapping[str, int],
-    stamps: Mapping[str, str],
+    own: Mapping[str, str],
 ) -> None:
     with netCDF4.Dataset(path, "w", format="NETCDF4") as dataset:
-        dataset.setncatts(stamps)
+        dataset.setncatts(own)
         for dimension, length in lengths.items():
             dataset.createDimension(dimension, length)
         for name, variable in stage.variables.items():

@@ -228,5 +228,8 @@ def test_without_equilibrium_there_are_no_modes(configuration, tables, monkeypat
     assert values["map_status"] == "not_converged"
     assert unexplained("bogie_modes", values) == []
     drawn = script("bogie_stability").draw(values, 0.7)
-    assert texts(drawn).count("no equilibrium in the curve") == 1
-    assert texts(script("bogie_mode_shapes").draw(values, 0.3)).count("no such mode") == 4
+    assert texts(drawn).count("not computed:\nno steady running was found") == 1
+    assert (
+        texts(script("bogie_mode_shapes").draw(values, 0.3)).count("no steady running was found")
+        == 4
+    )

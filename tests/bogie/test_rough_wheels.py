@@ -64,6 +64,7 @@ def stored(quiet, rough):
     return {
         name: {
             "absorber": np.array(name),
+            "status": np.array("converged"),
             **variables(rough[name], run.curve.contacts, R0, (12, 12)),
         }
         for name, run in quiet.items()
@@ -274,18 +275,39 @@ def test_translating_absorbers_respond_alike_at_the_same_equilibrium(line, quiet
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-def test_a_self_excited_bogie_does_not_run_periodically(line, running, tables):
-    unstable = changed(with_friction_decrease(line, 1.2), None, running)
-    values = {
+@pytest.fixture(scope="module")
+def unstable(line, running) -> dict:
+    """The linearised bogie at a friction decrease at which it vibrates by itself."""
+    run = changed(with_friction_decrease(line, 1.2), None, running)
+    return {
         "absorber": np.array("none"),
-        **variables(
-            rough_bogie(unstable.curve, unstable.equilibrium), unstable.curve.contacts, R0, (12, 12)
-        ),
+        "status": np.array("converged"),
+        **variables(rough_bogie(run.curve, run.equilibrium), run.curve.contacts, R0, (12, 12)),
     }
+
+
+def test_a_self_excited_bogie_is_not_simulated(tables, unstable, monkeypatch):
+    """The linear analysis knows what the simulation would find after minutes."""
     cfg = settings()
     cfg["numerics"]["longest_transient"] = 8
-    found = bogie_simulation.compute(cfg, 30, tables, values)
-    assert str(found["status"]) == "not_periodic"
+    with monkeypatch.context() as patched:
+        patched.setattr(bogie_simulation, "hindrance", lambda *_: "")
+        simulated = bogie_simulation.compute(cfg, 30, tables, unstable)
+    assert str(simulated["status"]) == "not_periodic"
+
+    monkeypatch.setattr(bogie_simulation, "simulate_wave", None)  # calling it would fail
+    found = bogie_simulation.compute(cfg, 30, tables, unstable)
+    assert str(found["status"]) == "self_excited"
+    assert np.isnan(found["normal_force"]).all()
+    assert found["normal_force"].shape == simulated["normal_force"].shape
+    np.testing.assert_allclose(found["time"], simulated["time"])
+    assert np.isfinite(found["time"]).all()
+
+
+def test_a_bogie_without_steady_running_is_not_simulated(tables, unstable, monkeypatch):
+    monkeypatch.setattr(bogie_simulation, "simulate_wave", None)
+    lost = unstable | {"status": np.array("outside_profile")}
+    assert str(bogie_simulation.compute(settings(), 30, tables, lost)["status"]) == "no_equilibrium"
 
 
 def test_waves_of_a_millimetre_lose_the_contact(stored, tables):

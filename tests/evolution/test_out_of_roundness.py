@@ -62,9 +62,12 @@ LINES = [f"{a} 1.0" for a in range(0, 360, 5)]
         (LINES[:20], "20 points; at least 36"),
         ([*LINES, "355 1.0"], "angle 355 after 355 must be larger"),
         ([*LINES[:30], *LINES[40:]], "no point for 55 degrees after 145"),
-        ([*LINES[:5], "nan 1", *LINES[6:]], "line 6: 'nan 1' must be two numbers"),
-        ([*LINES[:5], "25 1 3", *LINES[6:]], "line 6: '25 1 3' must be two numbers"),
-        ([*LINES[:5], "25 $(date)", *LINES[6:]], "line 6: '25 $(date)' must be two numbers"),
+        ([*LINES[:5], "nan 1", *LINES[6:]], "line 6: 'nan 1' must be finite"),
+        (
+            [*LINES[:5], "25 1 3", *LINES[6:]],
+            "line 6: 3 columns; two are needed, angle in degrees",
+        ),
+        ([*LINES[:5], "25 $(date)", *LINES[6:]], "line 6: '25 $(date)' is not a pair of numbers"),
         ([f"{a} 350000" for a in range(0, 360, 5)], "deviation of 350000 um; at most 5000"),
         ([f"{a / 57.3} 1" for a in range(0, 360, 5)], "no point for 353"),
     ],
@@ -83,8 +86,8 @@ def test_huge_binary_and_missing_files_are_refused(tmp_path, monkeypatch):
     with pytest.raises(oor.RoundnessError, match="there is no such file"):
         oor.read_measurement(path)
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(oor.RoundnessError, match="cannot be read"):
+    with pytest.raises(oor.RoundnessError, match="line 1: is not UTF-8 text"):
         oor.read_measurement(path)
-    monkeypatch.setattr(oor, "LARGEST_FILE", 2)
+    monkeypatch.setattr(oor, "LAYOUT", oor.LAYOUT._replace(largest=2))
     with pytest.raises(oor.RoundnessError, match="larger than 2 bytes"):
         oor.read_measurement(path)

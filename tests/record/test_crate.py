@@ -195,7 +195,8 @@ def test_commit_and_changed_sources_are_known(
     (tmp_path / "Snakefile").write_text("rule none:\n")
     (tmp_path / "new line.yaml").write_text("label: a\n")
     assert run_record.changes() == ["Snakefile", "new line.yaml"]
-    assert run_record.sources() == ["Snakefile", "new line.yaml", "old name.txt"]
+    assert run_record.sources() == ["Snakefile", "old name.txt"]
+    assert run_record.sources(["new line.yaml"]) == ["Snakefile", "new line.yaml", "old name.txt"]
     (tmp_path / "inside").mkdir()
     monkeypatch.chdir(tmp_path / "inside")
     assert run_record.commit() is None  # a folder in somebody else's repository
@@ -283,6 +284,44 @@ def test_archive_runs_elsewhere_with_nothing_to_be_done(
     for name in ("src/tramdva/record/crate.py", "requirements.lock", crate.NAME, FIGURE):
         assert (folder / name).read_bytes() == (here / name).read_bytes()
     assert command(folder, "tramdva.record.crate").returncode == 0
+
+
+def test_archive_holds_what_git_knows_and_the_run_and_nothing_else(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("config", "paper_figures"):
+        shutil.copytree(root / name, name, ignore=shutil.ignore_patterns("paper"))
+    git = ["git", "-c", "user.name=n", "-c", "user.email=e"]
+    for arguments in (["init", "-q"], ["add", "config"], ["commit", "-qm", "m"]):
+        subprocess.run([*git, *arguments], check=True)
+    Path("private-notes.txt").write_text("secret")
+    Path("config/lines/mine.yaml").write_text("label: Mine\n")
+    Path("config/lines/other.yaml").write_text("label: Not of this run\n")
+    made = run_record.Made("results/mine/wear.nc", "wear", (), "ok", {"input": []})
+    read = crate.configuration_files([made], ["--config", "lines=[mine]"])
+    packed = archive.contents([made], read)
+
+    assert "config/lines/mine.yaml" in packed
+    assert "config/profiles/worn_wheel.csv" in packed
+    assert not {"private-notes.txt", "config/lines/other.yaml"} & set(packed)
+
+
+def test_links_are_resolved_or_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "outside").write_text("secret")
+    (tmp_path / "here/config").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "here")
+    Path("config/a.yaml").write_text("a: 1\n")
+    Path("Snakefile").symlink_to("config/a.yaml")
+    archive.pack(tmp_path / "one.tar.gz", "x", archive.contents([]))
+    with tarfile.open(tmp_path / "one.tar.gz") as files:
+        assert files.getmember("x/Snakefile").isfile()
+        assert files.extractfile("x/Snakefile").read() == b"a: 1\n"
+
+    Path("config/b.yaml").symlink_to(tmp_path / "outside")
+    with pytest.raises(run_record.IncompleteRunError, match=r"b\.yaml: is a link to .*outside"):
+        archive.contents([])
 
 
 def test_same_files_give_the_same_archive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from tramdva import results
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import USES, used_values
 from tramdva.record import inventory
+from tramdva.running import stamps
 from tramdva.running.code_hash import code_hash
 from tramdva.variables.registry import STAGES
 
@@ -40,8 +41,8 @@ def write(root: Path, path: Path = PATH, stage: str = "hopf_points", **changes) 
     known = stage in USES
     cfg = used_values(load(root / "config"), "paper", stage) if known else {}
     code = code_hash(root / f"workflow/scripts/{stage}.py")
-    stamps = {"parameters": cfg, "code": code} | changes
-    results.save(path, STAGES[stage], values_of(stage), **stamps)
+    made_with = {"parameters": cfg, "code": code} | changes
+    results.save(path, STAGES[stage], values_of(stage), **made_with)
 
 
 def record(path: Path) -> None:
@@ -101,6 +102,26 @@ def test_file_made_otherwise_is_set_aside(root: Path, look, capsys, changes, sai
 
     assert ASIDE.exists()
     assert said in capsys.readouterr().err
+
+
+def test_file_of_other_packages_is_set_aside(root: Path, look, capsys, monkeypatch) -> None:
+    with monkeypatch.context() as patched:
+        patched.setattr(stamps, "package_versions", lambda: "numpy 0.1, scipy 0.1")
+        write(root)
+    look()
+
+    assert ASIDE.exists()
+    assert "made with other packages (numpy 0.1, scipy 0.1);" in capsys.readouterr().err
+
+
+def test_file_whose_values_were_changed_is_set_aside(root: Path, look, capsys) -> None:
+    write(root)
+    with netCDF4.Dataset(PATH, "a") as dataset:
+        dataset["frequency"][0] = 55.0
+    look()
+
+    assert ASIDE.exists()
+    assert "its values are not those that were saved" in capsys.readouterr().err
 
 
 def test_results_of_another_stage_are_set_aside(root: Path, look, capsys) -> None:

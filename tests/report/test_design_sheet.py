@@ -7,133 +7,20 @@ import numpy as np
 import pytest
 from figure_scripts import STYLE, script, texts
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from sheet_values import content, curving, maps, modes, tuning, without
 
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
-from tramdva.evolution.growing_orders import growing_orders
-from tramdva.report import design_sheet, design_sheet_page, figures
-from tramdva.report.design_sheet import NOMINAL, PAPER, ROBUST
-from tramdva.robustness.spread import QUANTILES
-from tramdva.robustness.spread import spread as spread_of
-from tramdva.variables.registry import STAGES
-from tramdva.variables.shared import CASE_STATUS
+from tramdva.report import design_sheet, design_sheet_page, figures, sheet_numbers
+from tramdva.report.sheet_verdicts import PAPER, ROBUST
 
 ROOT = Path(__file__).resolve().parents[2]
-KINDS = {"real": float, "flag": "U20", "truth": bool, "text": "U30"}
 DESIGN = script("design_sheet")
 
 
 @pytest.fixture
 def cfg() -> dict:
     return used_values(load(ROOT / "config"), "paper", "design_sheet")
-
-
-def tuning() -> dict[str, np.ndarray]:
-    """Numbers of a robust tuning with 30 sampled cases."""
-    ranges = list(design_sheet.RANGES)
-    ends = [f"{name}_{end}" for name in ranges[:9] for end in ("min", "max")]
-    varied = ["none", *ends, *["all"] * 30]
-    cases = len(varied)
-    lengths = {"case": cases, "range": 11, "wheel": 2, "friction": 2, "design": 4, "axis": 2,
-               "end": 2, "map_c_T": 5, "map_d_T": 5, "rubber_end": 4, "peak": 2,
-               "outcome": len(CASE_STATUS), "quantile": len(QUANTILES)}  # fmt: skip
-    values = {
-        name: np.zeros([lengths[d] for d in variable.dimensions], KINDS[variable.kind])
-        for name, variable in STAGES["robust_tuning"].variables.items()
-    }
-    spread = np.linspace(0.02, 0.9, cases)
-    missing = np.array([np.nan, 1.0, 1.0, 1.0])
-    values |= {
-        "varied": np.array(varied),
-        "range": np.array(ranges),
-        "wheel": np.array(["front_outer", "front_inner"]),
-        "case_status": np.array(["converged"] * cases, dtype="U20"),
-        "counted": np.ones(cases, bool),
-        "status": np.array(["converged"] * 4, dtype="U20"),
-        "I_T": 2.0 * missing,
-        "c_T": np.array([np.nan, 1.74e5, 2.7e5, 2.6e5]),
-        "d_T": np.array([np.nan, 300.0, 115.0, 394.0]),
-        "tuned_frequency": 46.9 * missing,
-        "damping_ratio": 0.25 * missing,
-        "added_mass": 40.0 * missing,
-        "added_weight": 392.4 * missing,
-        "unsprung_mass": np.array(1000.0),
-        "tolerance": np.array(
-            [np.full((2, 2), np.nan)] * 3 + [np.array([[2.3e5, 3e5], [197.0, np.nan]])]
-        ),
-        "map_c_T": np.linspace(2e4, 5e5, 5),
-        "map_d_T": np.linspace(20.0, 1500.0, 5),
-        "map_worst_factor": np.add.outer(np.linspace(0.5, 2, 5), np.linspace(0.1, 1, 5)),
-        "nominal_factor": np.array([np.nan, 0.29, 0.19, 0.27]),
-        "worst_factor": np.array([np.nan, 1.1, 3.7, 0.71]),
-        "self_excited_cases": np.array([np.nan, 1.0, 34.0, 0.0]),
-        "factor": np.outer([1.0, 0.6, 0.7, 0.5], spread),
-        "rubber_end": np.array(["stiffness_min", "stiffness_max", "damping_min", "damping_max"]),
-        "rubber_factor": np.full((4, 4), 0.28),
-        "peak": np.array(["second_bending", "resilient_wheel"]),
-        "peak_frequency": np.full((cases, 2, 2), 55.3),
-        "peak_factor": np.full((4, cases, 2, 2), 0.25) * spread[:, None, None],
-        "growth_rate": np.tile(np.where(np.arange(cases) % 2, 1.0, -1.0)[:, None], (4, 1, 2)),
-        "stroke_amplitude": np.outer([0.0, 1.0, 2.0, 1.0], 1e-3 * spread),
-        "torque_amplitude": np.outer([0.0, 1.0, 2.0, 1.0], 100 * spread),
-        "dissipated_power": np.outer([0.0, 1.0, 2.0, 1.0], 10 * spread),
-        "carrier_amplitude": np.outer([3.0, 1.0, 1.0, 1.0], 1e-3 * spread),
-        "load_frequency": np.full((4, cases), 55.0),
-        "load_order": np.full((4, cases), 25.9),
-    }
-    values["growth_rate"][1:] = -5.0
-    return values | spread_of(values, CASE_STATUS)
-
-
-def without(values: dict, status: str) -> dict:
-    """The same line where a search found no design."""
-    for name in ("c_T", "d_T", "nominal_factor", "worst_factor", "tuned_frequency"):
-        values[name][[NOMINAL, ROBUST]] = np.nan
-    values["status"][[NOMINAL, ROBUST]] = status
-    for name in ("factor", "peak_factor", "stroke_amplitude", "torque_amplitude", "growth_rate"):
-        values[name][[NOMINAL, ROBUST]] = np.nan
-    if status != "self_excited":
-        for name in ("factor", "peak_factor", "map_worst_factor", "peak_frequency"):
-            values[name][:] = np.nan
-    if status == "nothing_grows":
-        values["growth_rate"][0] = -1.0
-    if status == "no_equilibrium":
-        values["case_status"][:] = "not_converged"
-        values["growth_rate"][:] = np.nan
-    return values | spread_of(values, CASE_STATUS)
-
-
-def modes(status: str = "converged", growth: float = 0.3) -> dict[str, np.ndarray]:
-    return {
-        "absorber": np.array(["none", "paper", "tuned"]),
-        "status": np.array([status] * 3),
-        "operating_growth_rate": np.array([growth, -17.0, -18.0]),
-        "operating_frequency": np.array([54.7, 34.9, 35.0]),
-        "critical_friction_decrease": np.array([0.676 if growth > 0 else np.nan, np.nan, np.nan]),
-    }
-
-
-def maps(sign: float = 1.0) -> dict[str, np.ndarray]:
-    frequency, speed = np.linspace(2.0, 150.0, 297), np.array([3.0, 4.0])
-    bump = 1e-3 * np.exp(-(((frequency - 55.0) / 4.0) ** 2)) - 1e-4
-    values = {
-        "absorber": np.array(["none", "paper"]),
-        "frequency": frequency,
-        "speed": speed,
-        "speed_status": np.array([["converged", "converged"], ["converged", "wheel_lifted"]]),
-        "speed_tendency": np.tile(bump if sign > 0 else -np.abs(bump), (2, 2, 2, 1)),
-    }
-    return values | growing_orders(values, wheel_radius=0.3)
-
-
-def content(cfg, values, critical: float = 0.68, **others) -> design_sheet.Sheet:
-    return design_sheet.sheet(
-        cfg,
-        values,
-        {"baseline_critical_B": np.array(critical)},
-        others.get("modes", modes()),
-        others.get("maps", maps()),
-    )
 
 
 def page_of(cfg, values, found: design_sheet.Sheet) -> str:
@@ -170,8 +57,8 @@ def test_numbers_of_the_absorber_are_those_of_the_file(cfg):
     assert cell(found, "added unsprung mass", ROBUST) == "80.0 (8 %)"
     assert cell(found, "weight on one", ROBUST) == "392"
     worst = 1e3 * values["stroke_amplitude"][PAPER].max()
-    assert cell(found, "stroke", PAPER) == f"0.0200, {design_sheet.number(worst)}"
-    assert cell(found, "at 250 mm", PAPER) == f"0.00500, {design_sheet.number(0.25 * worst)}"
+    assert cell(found, "stroke", PAPER) == f"0.0200, {sheet_numbers.number(worst)}"
+    assert cell(found, "at 250 mm", PAPER) == f"0.00500, {sheet_numbers.number(0.25 * worst)}"
     assert cell(found, "growth left in the worst case", ROBUST) == "71 %"
 
 
@@ -234,7 +121,7 @@ def test_orders_that_grow_are_those_of_the_tendency(cfg):
     ("orders", "words"), [([], "none"), ([4], "4"), ([1, 2, 3, 7, 9, 10], "1 to 3, 7, 9 to 10")]
 )
 def test_ranges_of_whole_numbers(orders, words):
-    assert design_sheet.in_ranges(orders) == words
+    assert sheet_numbers.in_ranges(orders) == words
 
 
 @pytest.mark.parametrize(
@@ -243,7 +130,7 @@ def test_ranges_of_whole_numbers(orders, words):
      (392.4, "392"), (-2e-5, "−2.00·10⁻⁵"), (0.0780, "0.0780"), (1234.0, "1234")],
 )  # fmt: skip
 def test_numbers_in_words(value, words):
-    assert design_sheet.number(value) == words
+    assert sheet_numbers.number(value) == words
 
 
 @pytest.mark.parametrize(
@@ -251,7 +138,7 @@ def test_numbers_in_words(value, words):
     [(0.27, "27 %"), (0.004, "0.4 %"), (0.0, "0 %"), (np.nan, "–"), (1.5, "150 %")],
 )
 def test_shares_in_per_cent(share, words):
-    assert design_sheet.percent(share) == words
+    assert sheet_numbers.percent(share) == words
 
 
 def test_letters_of_a_label_mean_nothing(cfg):
@@ -265,7 +152,7 @@ def test_letters_of_a_label_mean_nothing(cfg):
 
 
 def test_same_results_give_the_same_files(cfg, tmp_path, monkeypatch):
-    files = {"tuning": tuning(), "modes": modes(), "maps": maps(),
+    files = {"tuning": tuning(), "modes": modes(), "maps": maps(), "curving": curving(),
              "map": {"baseline_critical_B": np.array(0.68)}}  # fmt: skip
     monkeypatch.setattr(DESIGN.results, "read", files.__getitem__)
     made = []
@@ -274,6 +161,7 @@ def test_same_results_give_the_same_files(cfg, tmp_path, monkeypatch):
         DESIGN.main(
             pdf=str(pdf), html=str(html), code="", cfg=cfg, stability_map="map",
             bogie_modes="modes", tendency_maps="maps", robust_tuning="tuning",
+            curving_equilibrium="curving",
         )  # fmt: skip
         made.append((pdf.read_bytes(), html.read_bytes()))
     assert made[0] == made[1]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tramdva.running import code_hash as hashing
 from tramdva.running.code_hash import WITHOUT_EFFECT, code_hash, reached_modules
 
 
@@ -135,3 +136,10 @@ def test_all_scripts_are_hashed_in_two_seconds(root: Path) -> None:
 
     assert time.process_time() - start < 2.0  # each start of snakemake waits for it
     assert len(hashes) == len(scripts)
+
+
+def test_another_version_of_what_computes_counts(package: Path, monkeypatch) -> None:
+    before = code_hash(package.parent / "wear.py", package=package)
+    monkeypatch.setattr(hashing, "computing_versions", lambda: "numpy 0.1")
+
+    assert code_hash(package.parent / "wear.py", package=package) != before

@@ -18,7 +18,7 @@ configuration = load_or_exit(
 LINES = configuration.run.lines
 use_numba_cache()
 if workflow.is_main_process:
-    measured_files.check_or_exit(configuration.measured)
+    measured_files.check_or_exit(configuration.measured, configuration.lines)
 if supervision.enter_folder(as_job=not workflow.is_main_process):
     inventory.take_back_dates("results", "paper_figures", "logs")
     inventory.set_aside_unusable(configuration, ROOT / "workflow/scripts")

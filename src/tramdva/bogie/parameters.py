@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from tramdva.quantities import GREATEST_LATERAL_ACCELERATION, Real, Section, quantity
 
+HALF_WHEEL = 0.05  # m, half of what a wheel takes across the track
 GREATEST_CHORD_ANGLE = 0.065  # rad, 15 m at the longest wheelbase; linear kinematics beyond 0.08
 
 
@@ -167,7 +168,11 @@ class Wheel(Section):
 
     radius: Real = quantity("rolling radius on the tape circle", "m", 0.15, 0.6, "ASSUME")
     half_distance: Real = quantity(
-        "distance of the wheel centres from the track centre", "m", 0.3, 1, "ASSUME"
+        "distance of a wheel's centre from the track centre, half of that of both wheels",
+        "m",
+        0.4,
+        0.9,
+        "ASSUME",
     )
     hub: Rotor
     rim: Rotor
@@ -231,6 +236,21 @@ class BareBogie(Section):
                 )
         if self.axle.drop >= self.wheel.radius:
             raise ValueError("axle.drop must be less than wheel.radius")
+        return self
+
+    @model_validator(mode="after")
+    def _inside_the_wheels(self) -> Self:
+        wheel = self.wheel.half_distance
+        for name, part, most, where in (
+            ("secondary", self.secondary, wheel - HALF_WHEEL, "between the wheels"),
+            ("primary", self.primary, wheel - HALF_WHEEL, "between the wheels"),
+            ("stub", self.stub, wheel + HALF_WHEEL, "within the outer face of the wheel"),
+        ):
+            if part.lateral_position > most + 1e-9:
+                raise ValueError(
+                    f"{name}.lateral_position = {part.lateral_position:g} m must be at most "
+                    f"{most:g} m, {where}: wheel.half_distance = {wheel:g} m"
+                )
         return self
 
 

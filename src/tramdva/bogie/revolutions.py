@@ -13,12 +13,17 @@ from tramdva.bogie.rough_wheels import RoughBogie, excitation
 logger = logging.getLogger(__name__)
 
 STATUS = (
-    "periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite", "self_excited",
-)  # fmt: skip
+    "periodic",
+    "not_periodic",
+    "contact_lost",
+    "outside_profile",
+    "not_finite",
+    "no_equilibrium",
+    "self_excited",
+)
+SLOWEST = 2.0 * np.pi  # 1/s, of an oscillation; slower motions are no vibration
 # Velocities among the local variables: they weigh all frequencies alike, positions do not.
 _RATES = np.tile([name.startswith("v") or name.endswith("rate") for name in LOCAL], 4)
-
-_SLOWEST = 2.0 * np.pi  # rad/s; below, drifts of the whole vehicle are no vibrations
 
 
 class Settings(NamedTuple):
@@ -81,10 +86,8 @@ def simulate_wave(
     differ by d_1, d_2, ... With their ratio q (of the slowest decay) the last one differs from its
     limit by d q / (1 - q).
 
-    A vehicle that vibrates by itself has no steady running on such wheels and is not simulated.
+    A vehicle that vibrates by itself never settles: `hindrance` tells before.
     """
-    if self_excited(bogie.eigenvalue):
-        return _not_run(contacts, wheel_radius, settings)
     speed = contacts.places.speed
     excited = excitation(bogie, wheel_radius, order, speed, amplitude, wheels)
     z = np.zeros(2 * bogie.eigenvalue.size)
@@ -112,24 +115,39 @@ def simulate_wave(
     )
 
 
-def self_excited(eigenvalue: np.ndarray) -> bool:
-    """Tell whether an oscillation of the linearised vehicle grows; eigenvalues in 1/s."""
-    oscillating = eigenvalue[np.abs(eigenvalue.imag) > _SLOWEST]
-    return bool((oscillating.real > 0.0).any())
-
-
-def _not_run(contacts: wheel_forces.Contacts, wheel_radius: float, settings: Settings) -> WaveRun:
-    """Return a revolution without results."""
-    samples = settings.samples
-    interval = 2.0 * np.pi * wheel_radius / contacts.places.speed / samples
-    shape = (samples, 4, len(contacts.tables), len(integration.RECORDED))
-    time = (np.arange(samples) + 1) * interval
-    return WaveRun(time, np.full(shape, np.nan), 0, np.nan, "self_excited")
-
-
 def _failed(one: "_Revolution", kept: list[np.ndarray], number: int, status: str) -> WaveRun:
     results = np.concatenate(kept)
     return WaveRun(one.times(len(kept)), np.full_like(results, np.nan), number, np.nan, status)
+
+
+def hindrance(bogie: RoughBogie, converged: bool) -> str:
+    """Why no order can run periodically: `no_equilibrium`, `self_excited`, or nothing.
+
+    Parameters
+    ----------
+    bogie : RoughBogie
+        Linearised in its curve; one that vibrates by itself answers no wave steadily, which its
+        eigenvalues tell before minutes of simulation do.
+    converged : bool
+        Whether it has an equilibrium there.
+    """
+    if not converged or not np.isfinite(bogie.eigenvalue).all():
+        return "no_equilibrium"
+    oscillating = np.abs(bogie.eigenvalue.imag) >= SLOWEST
+    return "self_excited" if (bogie.eigenvalue.real[oscillating] >= 0.0).any() else ""
+
+
+def not_run(
+    contacts: wheel_forces.Contacts, wheel_radius: float, settings: Settings, status: str
+) -> WaveRun:
+    """A run that was not made: its times, NaN, and the status that says why.
+
+    Parameters are those of `simulate_wave`.
+    """
+    turn, count = 2.0 * np.pi * wheel_radius / contacts.places.speed, settings.samples
+    times = (np.arange(settings.kept * count) + 1) * (turn / count)
+    shape = times.size, 4, len(contacts.tables), len(integration.RECORDED)
+    return WaveRun(times, np.full(shape, np.nan), 0, np.nan, status)
 
 
 class _Revolution:

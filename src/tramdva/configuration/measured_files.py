@@ -9,9 +9,16 @@ import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tramdva.configuration.line import Line
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from tramdva.contact.parameters import ContactGeometry
+
+    Named = tuple[str, np.ndarray]
 
 LARGEST = 10_000_000  # bytes; nothing larger is hashed
 
@@ -79,29 +86,58 @@ def found(folder: Path, name: str) -> MeasuredFile:
     return MeasuredFile(path.as_posix(), hashlib.sha256(content).hexdigest())
 
 
-def check_or_exit(files: Mapping[str, Mapping[str, MeasuredFile]]) -> None:
+def check_or_exit(
+    files: Mapping[str, Mapping[str, MeasuredFile]], lines: Mapping[str, Line]
+) -> None:
     """End the program where measured files are wrong, with a line for each, before a run.
 
     Parameters
     ----------
     files : mapping
         By line and by what they measure.
+    lines : mapping
+        The lines by name.
     """
-    different = {(what, file.path) for of_line in files.values() for what, file in of_line.items()}
-    problems = [problem for what, path in sorted(different) for problem in _problems(what, path)]
+    problems = [
+        problem
+        for name, of_line in files.items()
+        if of_line
+        for problem in _problems(lines[name], of_line)
+    ]
     if problems:
-        raise SystemExit("\n".join(problems))
+        raise SystemExit("\n".join(dict.fromkeys(problems)))
 
 
-def _problems(what: str, path: str) -> Iterator[str]:
+def _problems(line: Line, files: Mapping[str, MeasuredFile]) -> Iterator[str]:
     # NumPy is loaded only by runs that have such files.
-    from tramdva.contact.measured_profile import read_profile
+    from tramdva.contact.measured_profile import check_pair, read_profile
     from tramdva.evolution.out_of_roundness import read_measurement
 
-    try:
-        if what == "out_of_roundness":
-            read_measurement(path)
-        else:
-            read_profile(path, what)
-    except ValueError as error:
-        yield str(error)
+    shape, profiles = line.contact_geometry, {}
+    for what, file in files.items():
+        try:
+            if what == "out_of_roundness":
+                read_measurement(file.path)
+            else:
+                noise = getattr(shape, what).measured_noise
+                profiles[what] = file.path, read_profile(file.path, what, noise)
+        except ValueError as error:
+            yield str(error)
+    if profiles and set(profiles) == set(files) - {"out_of_roundness"}:
+        try:
+            check_pair(*_pair(shape, profiles), shape.rail.lateral_position)
+        except ValueError as error:
+            yield str(error)
+
+
+def _pair(shape: ContactGeometry, profiles: Mapping[str, Named]) -> Iterator[Named]:
+    """Names and points in mm of wheel and rail, measured or made of their parameters."""
+    for kind in ("wheel", "rail"):
+        if kind in profiles:
+            yield profiles[kind]
+            continue
+        from tramdva.contact import tables  # with Numba: only where it is needed
+
+        made = {"wheel": tables.parametric_wheel, "rail": tables.parametric_rail}[kind]
+        profile = made(getattr(shape, kind))
+        yield f"the {kind} of the parameters", tables.points_in_mm(profile)

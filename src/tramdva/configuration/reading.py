@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from tramdva.configuration import following, measured_files, messages, reference, yaml_files
+from tramdva.configuration import following, grids, measured_files, messages, reference, yaml_files
 from tramdva.configuration.everyday import Tram
 from tramdva.configuration.line import Line
 from tramdva.configuration.measured_files import MeasuredFile
@@ -83,6 +83,8 @@ def load(
         layers.append(_Layer("--config", overrides))
     run = None if problems else _validate(Run, layers, problems)
     lines, measured, derived = _load_lines(folder, layers, problems)
+    if run is not None:
+        problems += grids.problems(run.numerics, lines)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(messages.harmless, problems))))
     return Configuration(run, lines, measured, derived)

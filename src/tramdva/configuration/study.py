@@ -301,3 +301,14 @@ class Study(Section):
     wheelset_designs: WheelsetDesignsStudy
     bogie_designs: BogieDesignsStudy
     design_sheet: DesignSheetStudy
+
+    @model_validator(mode="after")
+    def _band_is_computed(self) -> Self:
+        band, axis = self.tendency_maps.design_band, self.evolution_tendency.frequency
+        if band.min < axis.min or band.max > axis.max:
+            raise ValueError(
+                f"tendency_maps.design_band = {band.min:g} to {band.max:g} Hz must lie within "
+                f"evolution_tendency.frequency = {axis.min:g} to {axis.max:g} Hz: nothing is "
+                "computed beyond"
+            )
+        return self

@@ -1,20 +1,20 @@
-"""Measured profiles: reader of two-column files and the smoothing spline."""
+"""Measured profiles: where the points of a file must lie, and the smoothing spline."""
 
 from pathlib import Path
 
 import numpy as np
 import scipy  # its parts load when they are used: checking a file needs none
 
+from tramdva.contact import profile_checks
 from tramdva.contact.profiles import MM, STEEPEST, Profile, ProfileError, resample
+from tramdva.contact.two_columns import Layout, read_columns
 
-FEWEST_POINTS = 20
+LAYOUT = Layout("y and z in mm", ProfileError, fewest=20, most=20_000, largest=1_000_000)
 SMALLEST_EXTENT_MM = 20.0
 LARGEST_EXTENT_MM = 250.0
 LARGEST_GAP_MM = 5.0
 REACH_MM = 8.0  # on either side of the origin
 SMALLEST_RISE_MM = 4.0  # of flange or gauge corner
-GREATEST_SIZE = 1_000_000  # bytes
-MOST_POINTS = 20_000
 
 
 def read_points(path: str | Path) -> np.ndarray:
@@ -22,33 +22,27 @@ def read_points(path: str | Path) -> np.ndarray:
 
     Parameters
     ----------
-    path : text file; two columns y (outwards) and z (downwards) in mm, separated by blanks,
-        commas or semicolons; `#`, `!` and `%` start comments; y strictly monotone
+    path : text file; two columns y (outwards) and z (downwards) in mm, as `read_columns` reads
+        them; y strictly monotone
 
     Returns
     -------
     (n, 2) array in mm, y increasing.
     """
-    path = Path(path)
-    points, lines = [], []
-    for number, line in enumerate(_text(path).split("\n"), start=1):
-        values = _parse(path, number, line)
-        if values is not None:
-            points.append(values)
-            lines.append(number)
-    _check_size(path, points)
-    array = np.array(points)
+    array, lines = read_columns(path, LAYOUT)
+    _check_extent(path, array)
     if array[-1, 0] < array[0, 0]:
         array, lines = array[::-1].copy(), lines[::-1]
     _check_order(path, array, lines)
     return array
 
 
-def read_profile(path: str | Path, kind: str) -> np.ndarray:
+def read_profile(path: str | Path, kind: str, noise: float | None = None) -> np.ndarray:
     """Read points as `read_points` does and check that they lie as a wheel's or a rail's must.
 
     `kind` is 'wheel' or 'rail'; the flange, or the gauge corner, is at negative y, and z points
-    downwards: both lie deeper than the origin.
+    downwards: both lie deeper than the origin. `noise` in m is that which is expected of the
+    points; if it is given, theirs must not be much larger.
     """
     if kind not in ("wheel", "rail"):
         raise ProfileError(f"{path}: kind '{kind}' is unknown; allowed: wheel, rail")
@@ -70,61 +64,59 @@ def read_profile(path: str | Path, kind: str) -> np.ndarray:
             f"{part} must be there and reach {SMALLEST_RISE_MM:g} mm "
             "(y outwards to the field side, z downwards)"
         )
+    if kind == "rail":
+        _check_top(path, points)
+    if noise is not None:
+        _check_noise(path, points, noise / MM)
     return points
 
 
-def _text(path):
-    if not path.is_file():
-        raise ProfileError(f"{path}: there is no such file")
-    try:
-        with path.open("rb") as file:
-            raw = file.read(GREATEST_SIZE + 1)
-        if len(raw) > GREATEST_SIZE:
-            raise ProfileError(f"{path}: is larger than {GREATEST_SIZE} bytes")
-        return raw.decode("utf-8-sig")
-    except OSError as error:
-        raise ProfileError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
-    except UnicodeDecodeError as error:
-        line = raw[: error.start].count(b"\n") + 1
-        raise ProfileError(f"{path}, line {line}: is not UTF-8 text") from None
+def check_pair(
+    wheel: tuple[str, np.ndarray], rail: tuple[str, np.ndarray], lateral_position: float
+) -> None:
+    """Refuse a wheel and a rail whose flange has no play, or more than the tables reach.
 
-
-def _parse(path, number, line):
-    for comment in "#!%":
-        line = line.split(comment)[0]
-    fields = line.replace(",", " ").replace(";", " ").split()
-    if not fields:
-        return None
-    if len(fields) != 2:
+    Parameters
+    ----------
+    wheel, rail : name and points (n, 2) in mm of each
+    lateral_position : m, top of the rail outside the tape circle of the centred wheelset
+    """
+    (wheel_name, flange), (rail_name, corner) = wheel, rail
+    play = profile_checks.flange_play(flange, corner, lateral_position / MM)
+    if not 0.0 < play <= profile_checks.LARGEST_PLAY_MM:
         raise ProfileError(
-            f"{path}, line {number}: {len(fields)} columns; two are needed, y and z in mm"
+            f"{wheel_name} on {rail_name}: the flange has a play of {play:.3g} mm to the gauge "
+            f"corner; it must be between 0 and {profile_checks.LARGEST_PLAY_MM:g} mm (y = 0 must "
+            "be the wheel's tape circle and the rail's top; rail.lateral_position = "
+            f"{lateral_position:g} m is between them)"
         )
-    try:
-        values = _number(fields[0]), _number(fields[1])
-    except ValueError:
+
+
+def _check_top(path, points):
+    place, above = profile_checks.top_of_rail(points)
+    far = abs(place) > profile_checks.FARTHEST_TOP_MM
+    if far and above > profile_checks.LEAST_RISE_MM:
         raise ProfileError(
-            f"{path}, line {number}: {line.strip()[:60]!r} is not a pair of numbers y z in mm"
-        ) from None
-    if not np.all(np.isfinite(values)):
-        raise ProfileError(f"{path}, line {number}: {line.strip()[:60]!r} must be finite")
-    return values
-
-
-def _number(field):
-    if "_" in field:  # float() reads 1_000 as a number
-        raise ValueError
-    return float(field)
-
-
-def _check_size(path, points):
-    if len(points) > MOST_POINTS:
-        raise ProfileError(f"{path}: {len(points)} points; at most {MOST_POINTS}")
-    if len(points) < FEWEST_POINTS:
-        raise ProfileError(
-            f"{path}: {len(points)} points; at least {FEWEST_POINTS} are needed for a profile"
+            f"{path}: the highest point is at y = {place:.3g} mm, {above:.2g} mm above that at "
+            f"y = 0; y = 0 must be the top of the rail, up to {profile_checks.FARTHEST_TOP_MM:g} "
+            "mm beside it (a wheel, or a shifted profile?)"
         )
-    y = [point[0] for point in points]
-    extent = max(y) - min(y)
+
+
+def _check_noise(path, points, expected):
+    found = profile_checks.noise_of(points)
+    most = max(profile_checks.NOISE_FACTOR * expected, profile_checks.ALWAYS_ALLOWED_MM)
+    most = min(most, profile_checks.NEVER_ALLOWED_MM)
+    if found > most:
+        raise ProfileError(
+            f"{path}: the points scatter by {1e3 * found:.2g} um; at most {1e3 * most:.2g} um are "
+            f"allowed with measured_noise = {expected * MM:g} m (never more than "
+            f"{1e3 * profile_checks.NEVER_ALLOWED_MM:g} um)"
+        )
+
+
+def _check_extent(path, array):
+    extent = np.ptp(array[:, 0])
     if not SMALLEST_EXTENT_MM <= extent <= LARGEST_EXTENT_MM:
         raise ProfileError(
             f"{path}: the profile is {extent:g} wide; lengths must be in mm, "
@@ -167,7 +159,7 @@ def measured_profile(path: str | Path, kind: str, noise: float = 0.01e-3) -> Pro
     left out. Depths count from that of a wheel at y = 0 and from a rail's highest point, wherever
     the file's z is zero.
     """
-    points = read_profile(path, kind) * MM
+    points = read_profile(path, kind, noise) * MM
     arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     fine = np.linspace(0.0, arc[-1], max(2000, 20 * arc.size))
     y_spline, z_spline = _smooth(arc, points, noise)

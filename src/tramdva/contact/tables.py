@@ -40,6 +40,11 @@ def parametric_rail(rail: RailProfile) -> profiles.Profile:
     )
 
 
+def points_in_mm(profile: profiles.Profile) -> np.ndarray:
+    """Points (n, 2) of a profile as files hold them: y outwards and z downwards in mm."""
+    return np.column_stack([profile.position, profile.depth]) / profiles.MM
+
+
 TABLE_FIELDS = ContactTable._fields
 ZONES = ("tread", "flange", "flank")
 

@@ -13,15 +13,25 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tramdva.contact.two_columns import Layout, read_columns
+
 REFERENCE = 1e-6  # m, of levels
-LARGEST_FILE = 10_000_000  # bytes
-FEWEST_POINTS = 36
 LARGEST_DEVIATION = 5e-3  # m; beyond, a file is in other units or of no wheel
+SMALLEST_RANGE = 1e-6  # m; less than what gauges resolve and what turning leaves of a wheel
 LARGEST_GAP = 15.0  # degrees between neighbours
 
 
 class RoundnessError(ValueError):
     """A file is no measurement of a wheel's out-of-roundness."""
+
+
+LAYOUT = Layout(
+    "angle in degrees and deviation in um",
+    RoundnessError,
+    fewest=36,
+    most=200_000,
+    largest=10_000_000,
+)
 
 
 class Measurement(NamedTuple):
@@ -92,19 +102,15 @@ def read_measurement(path: str | Path) -> Measurement:
 
     Parameters
     ----------
-    path : text file of two columns, angle in degrees and deviation in um (crest positive),
-        separated by blanks, commas or semicolons; `#` starts a comment
+    path : text file of two columns, angle in degrees and deviation in um (crest positive), as
+        `read_columns` reads them
 
     Raises
     ------
     RoundnessError
         With file, line and what is wrong.
     """
-    path = Path(path)
-    rows = [_row(path, number, line) for number, line in enumerate(_lines(path), start=1)]
-    points = np.array([row for row in rows if row is not None])
-    if len(points) < FEWEST_POINTS:
-        raise RoundnessError(f"{path}: {len(points)} points; at least {FEWEST_POINTS} are needed")
+    points, _ = read_columns(path, LAYOUT)
     angle, deviation = points[:, 0], 1e-6 * points[:, 1]
     if np.any(np.diff(angle) <= 0.0):
         k = int(np.argmax(np.diff(angle) <= 0.0))
@@ -127,31 +133,9 @@ def read_measurement(path: str | Path) -> Measurement:
             f"{path}: deviation of {1e6 * np.abs(deviation).max():g} um; at most "
             f"{1e6 * LARGEST_DEVIATION:g} um are allowed (deviation in um, not the radius)"
         )
-    return Measurement(np.radians(angle), deviation - deviation.mean())
-
-
-def _lines(path: Path) -> list[str]:
-    if not path.is_file():  # a device may have no end
-        raise RoundnessError(f"{path}: there is no such file")
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise RoundnessError(f"{path}: larger than {LARGEST_FILE} bytes")
-        return path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise RoundnessError(f"{path}: cannot be read as text ({error})") from None
-
-
-def _row(path: Path, number: int, line: str) -> tuple[float, float] | None:
-    fields = line.split("#")[0].replace(",", " ").replace(";", " ").split()
-    if not fields:
-        return None
-    try:
-        angle, deviation = map(float, fields)
-    except ValueError:
-        angle = deviation = np.nan
-    if not np.isfinite(angle + deviation):
+    if np.ptp(deviation) < SMALLEST_RANGE:
         raise RoundnessError(
-            f"{path}, line {number}: {line.strip()[:60]!r} must be two numbers, angle in degrees "
-            "and deviation in um"
+            f"{path}: the deviation varies by {1e6 * np.ptp(deviation):.3g} um in all; at least "
+            f"{1e6 * SMALLEST_RANGE:g} um are needed (deviation in um, not in mm or m)"
         )
-    return angle, deviation
+    return Measurement(np.radians(angle), deviation - deviation.mean())

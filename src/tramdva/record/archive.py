@@ -38,27 +38,51 @@ def write(arguments: Sequence[str]) -> Path:
     name = f"tramdva-{version('tramdva')}-{commit[:10] if commit else 'unknown'}"
     path = Path(f"{name}.tar.gz")
     with results.atomically(path) as part:
-        pack(part, name, contents(made))
+        pack(part, name, contents(made, crate.configuration_files(made, arguments)))
     return path
 
 
-def contents(made: Sequence[Made]) -> list[str]:
-    """List what belongs into the archive of a run, each file once, in alphabetical order."""
-    files = {crate.NAME, *run_record.sources()}
+def contents(made: Sequence[Made], configuration: Sequence[str] = ()) -> list[str]:
+    """List what belongs into the archive of a run, each file once, in alphabetical order.
+
+    Parameters
+    ----------
+    made : sequence of Made
+        Files of the run.
+    configuration : sequence of str
+        Files that the run read as configuration.
+
+    Raises
+    ------
+    IncompleteRunError
+        Where a file is a link that leads out of the folder.
+    """
+    files = {crate.NAME, *run_record.sources(configuration)}
     for file in made:
         benchmarks = (str(Path(log).with_suffix(".tsv")) for log in file.log)
         record = run_record.record_of(file.path).as_posix()
         files |= {file.path, record, *file.inputs, *file.log, *benchmarks}
     archives = {path.name for path in Path().glob("tramdva-*.tar.gz")}
-    return sorted(name for name in files - archives if Path(name).is_file())
+    packed = sorted(name for name in files - archives if Path(name).is_file())
+    here = Path().resolve()
+    if out := [name for name in packed if not Path(name).resolve().is_relative_to(here)]:
+        raise IncompleteRunError(
+            "\n".join(f"{name}: is a link to {Path(name).resolve()}, outside" for name in out)
+        )
+    return packed
 
 
 def pack(target: Path, folder: str, files: Iterable[str]) -> None:
-    """Write a compressed archive of files below a folder, without owners and its own date."""
+    """Write a compressed archive of files below a folder, without owners and its own date.
+
+    Of a link it holds the file that it leads to.
+    """
     with (
         target.open("wb") as raw,
         gzip.GzipFile("", "wb", compresslevel=5, fileobj=raw, mtime=0) as packed,
-        tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive,
+        tarfile.open(
+            fileobj=packed, mode="w", format=tarfile.PAX_FORMAT, dereference=True
+        ) as archive,
     ):
         for name in files:
             archive.add(name, f"{folder}/{name}", recursive=False, filter=_without_owner)

@@ -8,6 +8,7 @@ follows RO-Crate 1.1 and the profile Workflow Run Crate 0.5, whose words are sch
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import importlib.metadata
 import json
@@ -23,6 +24,7 @@ from typing import Any
 import yaml
 
 from tramdva import results
+from tramdva.configuration.reading import load
 from tramdva.record import run_record
 from tramdva.record.run_record import IncompleteRunError, Made
 
@@ -80,7 +82,8 @@ def write(arguments: Sequence[str]) -> list[Made]:
 
 def graph(made: Sequence[Made], arguments: Sequence[str]) -> list[Entity]:
     """Return all entities of the crate, each once."""
-    sources = [name for name in run_record.sources() if name != NAME]
+    configuration = configuration_files(made, arguments)
+    sources = [name for name in run_record.sources(configuration) if name != NAME]
     inputs = {path for file in made for path in file.inputs}
     known = {*sources, *(file.path for file in made)}
     further = sorted(path for path in inputs - known if Path(path).is_file())
@@ -91,6 +94,7 @@ def graph(made: Sequence[Made], arguments: Sequence[str]) -> list[Entity]:
         _commit(),
         *_workflow(),
         *_packages(),
+        *_earlier_packages(made),
         *(_file(name) for name in sources + further if name != WORKFLOW),
         *(_result(file) for file in made),
         *jobs,
@@ -188,6 +192,7 @@ def _workflow() -> Iterator[Entity]:
     }
 
 
+@functools.cache
 def _installed() -> dict[str, str]:
     """Return the versions of the packages of the lock file, as they are installed."""
     locked = dict(LOCKED.findall(Path("requirements.lock").read_text(encoding="utf-8")))
@@ -207,12 +212,16 @@ def _packages() -> Iterator[Entity]:
         "operatingSystem": f"{platform.system()} on {platform.machine()}",
     }
     for name, version in _installed().items():
-        yield {
-            "@id": f"#package-{name}",
-            "@type": "SoftwareApplication",
-            "name": name,
-            "version": version,
-        }
+        yield _package(f"#package-{name}", name, version)
+
+
+def _package(identifier: str, name: str, version: str) -> Entity:
+    return {
+        "@id": identifier,
+        "@type": "SoftwareApplication",
+        "name": name,
+        "version": version,
+    }
 
 
 def _file(path: str) -> Entity:
@@ -234,8 +243,33 @@ def _result(file: Made) -> Entity:
     if not file.path.endswith(".nc"):
         return _file(file.path)
     stamps = results.read_stamps(file.path)
-    title, version = stamps["title"], stamps["tramdva_version"]
-    return {**_file(file.path), "description": title, "version": version}
+    return {
+        **_file(file.path),
+        "description": stamps["title"],
+        "version": stamps["tramdva_version"],
+        "softwareRequirements": _refer(map(_package_id, _made_with(stamps))),
+    }
+
+
+def _made_with(stamps: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Names and versions of the packages that made a result, as its stamps say."""
+    for package in stamps["packages"].split(", "):
+        name, _, version = package.partition(" ")
+        yield name.lower(), version
+
+
+def _package_id(package: tuple[str, str]) -> str:
+    name, version = package
+    same = _installed().get(name) == version
+    return f"#package-{name}" if same else f"#package-{name}-{version}"
+
+
+def _earlier_packages(made: Sequence[Made]) -> Iterator[Entity]:
+    """Describe packages that made a result in another version than the one that is installed."""
+    for file in made:
+        if file.path.endswith(".nc"):
+            for name, version in _made_with(results.read_stamps(file.path)):
+                yield _package(_package_id((name, version)), name, version)
 
 
 def _jobs(made: Sequence[Made]) -> Iterator[Entity]:
@@ -295,10 +329,8 @@ def _meaning(value: Any) -> str:
 
 def _run(made: Sequence[Made], jobs: Sequence[Entity], arguments: Sequence[str]) -> list[Entity]:
     """Describe the run as a whole: the configuration it read and everything it made."""
-    lines = sorted({file.path.split("/")[1] for file in made})
-    named = ["config/config.yaml", *(f"config/lines/{line}.yaml" for line in ("paper", *lines))]
-    given = [argument for argument in arguments if argument.endswith((".yaml", ".yml"))]
-    files = [name for name in dict.fromkeys([*named, *given]) if Path(name).is_file()]
+    lines = lines_of(made)
+    files = configuration_files(made, arguments)
     return [
         {
             "@id": "#run",
@@ -317,8 +349,26 @@ def _run(made: Sequence[Made], jobs: Sequence[Entity], arguments: Sequence[str])
             "name": "arguments of snakemake",
             "value": " ".join(arguments),
         },
-        *(_file(name) for name in given if name in files),
+        *map(_file, files),
     ]
+
+
+def lines_of(made: Sequence[Made]) -> list[str]:
+    """Names of the lines of a run."""
+    return sorted({file.path.split("/")[1] for file in made})
+
+
+def configuration_files(made: Sequence[Made], arguments: Sequence[str]) -> list[str]:
+    """List the files that a run read as configuration: its own, its lines', those of arguments.
+
+    With them go the measured files that the lines name.
+    """
+    lines = lines_of(made)
+    named = ["config/config.yaml", *(f"config/lines/{line}.yaml" for line in ("paper", *lines))]
+    given = [argument for argument in arguments if argument.endswith((".yaml", ".yml"))]
+    of_lines = load(Path("config"), (), {"lines": lines}).measured.values()
+    measured = [file.path for files in of_lines for file in files.values()]
+    return [n for n in dict.fromkeys([*named, *given, *measured]) if Path(n).is_file()]
 
 
 def _time(seconds: float) -> str:

@@ -16,6 +16,7 @@ from tramdva.configuration.reading import Configuration
 from tramdva.configuration.uses import USES, used_values
 from tramdva.running import supervision
 from tramdva.running.code_hash import code_hash
+from tramdva.running.stamps import package_versions
 
 SET_ASIDE = ".set-aside"
 SECOND = 1_000_000_000  # in ns
@@ -102,6 +103,7 @@ def _fault(path: Path, configuration: Configuration, line: str, scripts: Path) -
     from tramdva import results  # half a second that a start without such files does not need
 
     try:
+        results.verify(path)
         stamps = results.read_stamps(path)
     except ValueError as error:
         return str(error)
@@ -122,5 +124,7 @@ def _differing(
         expected = json.dumps(used_values(configuration, line, values))
         if json.loads(stamps["parameters"]) != json.loads(expected):
             yield "parameters"
-    if stamps["code_hash"] != code_hash(scripts / f"{name}.py"):
+    if stamps["packages"] != package_versions():
+        yield f"packages ({stamps['packages']})"
+    elif stamps["code_hash"] != code_hash(scripts / f"{name}.py"):
         yield "code"

@@ -15,10 +15,12 @@ import json
 import subprocess
 import sys
 from base64 import urlsafe_b64encode
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from tramdva import results
 
 RECORDS = Path(".snakemake/metadata")
 CURRENT = "ok"
@@ -143,9 +145,20 @@ def _fault(file: Made) -> str:
         return "there is no record of its making; remove it and run the pipeline again"
     if abs(file.record["endtime"] - Path(file.path).stat().st_mtime) > SAME_DATE:
         return "was changed after the pipeline had made it; remove it and run the pipeline again"
+    if file.path.endswith(".nc") and (fault := _tampered(file.path)):
+        return fault
     for path, checksum in file.record["input_checksums"].items():
         if checksum != f"sha256:{sha256(path)}":
             return f"was made from another {path}; remove it and run the pipeline again"
+    return ""
+
+
+def _tampered(path: str) -> str:
+    """Say that a result file does not hold what was saved; nothing where it does."""
+    try:
+        results.verify(path)
+    except ValueError as error:
+        return str(error).removeprefix(f"{path}: ")
     return ""
 
 
@@ -168,11 +181,19 @@ def _digest(path: Path, date: int, size: int) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def sources() -> list[str]:
-    """List the source files of the checkout, with new ones, without what is made from them."""
+def sources(lines: Iterable[str] = ()) -> list[str]:
+    """List the source files of the checkout, without what is made from them.
+
+    Where git can tell, these are the files it knows, and what belongs to the lines of the run.
+
+    Parameters
+    ----------
+    lines : iterable of str
+        Files that a run read and that git need not know, such as a new line.
+    """
     if commit() is not None:
-        listed = _git("ls-files", "-z", "--cached", "--others", "--exclude-standard")
-        return sorted(name for name in set(listed.split("\0")) if name and Path(name).is_file())
+        listed = {*_git("ls-files", "-z").split("\0"), *lines}
+        return sorted(name for name in listed if name and Path(name).is_file())
     found = [path for name in SOURCES for path in (Path(name), *Path(name).rglob("*"))]
     figures = set(Path("paper_figures").glob("*/*"))
     return sorted(

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-Config = Mapping[str, Any]  # values of the configuration
-Values = Mapping[str, np.ndarray]  # variables of a result file, SI units
-KMH = 3.6
-NONE, PAPER, NOMINAL, ROBUST = range(4)
-NAMES = ("no absorber", "line's absorber", "nominal optimum", "robust optimum")
+from tramdva.report.sheet_numbers import DASH, in_ranges, number, percent, place_of
+from tramdva.report.sheet_verdicts import (
+    KMH,
+    NAMES,
+    NOMINAL,
+    NONE,
+    PAPER,
+    ROBUST,
+    Config,
+    Values,
+    unit_names,
+    verdicts,
+    worst,
+)
+
 SPEEDS_SHOWN = 9
-DASH = "–"
 RANGES = {
     "friction": ("coefficient of friction μ₀", ""),
     "friction_decrease": ("friction decrease B in operation", "s/m"),
@@ -50,35 +58,12 @@ class Sheet(NamedTuple):
 
     title: str
     verdicts: list[str]
+    running: Table
     absorber: Table
     peaks: Table
     orders: Table
     ranges: Table
     notes: list[str]
-
-
-def number(value: float, digits: int = 3) -> str:
-    """Write a number with a few digits, or a dash where there is none."""
-    if not np.isfinite(value):
-        return DASH
-    if value == 0.0:
-        return "0"
-    if not 1e-3 <= abs(value) < 1e5:
-        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-        return f"{mantissa.replace('-', '−')}·10{_raised(int(exponent))}"
-    size = int(np.floor(np.log10(abs(float(f"{value:.{digits - 1}e}")))))
-    return f"{value:.{max(digits - 1 - size, 0)}f}".replace("-", "−")
-
-
-def _raised(exponent: int) -> str:
-    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
-def percent(share: float) -> str:
-    """Write a share in per cent, or a dash."""
-    if not np.isfinite(share):
-        return DASH
-    return f"{100.0 * share:.0f} %" if share == 0.0 or share >= 0.0095 else f"{100 * share:.1f} %"
 
 
 def sheet(
@@ -87,15 +72,13 @@ def sheet(
     stability_map: Values,
     bogie_modes: Values,
     tendency_maps: Values,
+    curving_equilibrium: Values,
 ) -> Sheet:
     """Contents of the design sheet from the values of the line and the result files."""
     return Sheet(
         f"Design sheet: {cfg['label']}",
-        [
-            *self_excitation(cfg, stability_map, bogie_modes),
-            *spread(tuning),
-            recommendation(cfg, tuning),
-        ],
+        verdicts(cfg, tuning, stability_map, bogie_modes, tendency_maps),
+        running_table(curving_equilibrium, bogie_modes),
         absorber_table(cfg, tuning),
         peak_table(tuning),
         order_table(tendency_maps),
@@ -104,87 +87,32 @@ def sheet(
     )
 
 
-def self_excitation(cfg: Config, stability_map: Values, modes: Values) -> list[str]:
-    """Tell whether the wheelset and the bogie vibrate by themselves, and from which B on."""
-    B = cfg["creep_force"]["B"]
-    critical = float(stability_map["baseline_critical_B"])
-    if np.isnan(critical):
-        lines = ["Wheelset alone (basic model): it does not vibrate by itself, whatever B is."]
-    else:
-        does = "it vibrates by itself" if critical <= B else "it does not vibrate by itself"
-        lines = [
-            f"Wheelset alone (basic model): self-excitation from B = {number(critical)} s/m on; "
-            f"at the line's B = {B:g} s/m {does}."
-        ]
-    for row, name in enumerate(map(str, modes["absorber"])):
-        if name not in ("none", "paper"):
+def running_table(curving: Values, modes: Values) -> Table:
+    """Build the table of the steady running: wheel loads, angles of attack, B and its onset."""
+    rows = [["", *(str(name).replace("_", " ") for name in curving["wheel"])]]
+    names = list(map(str, curving["absorber"]))
+    shown = [(k, w) for k, w in ((0, "no absorber"), (1, "line's absorber")) if k < len(names)]
+    for k, words in shown:
+        if str(curving["status"][k]) != "converged":
+            status = str(curving["status"][k]).replace("_", " ")
+            rows.append([f"wheel load (kN), {words}: none, {status}", *[DASH] * (len(rows[0]) - 1)])
             continue
-        words = "without absorbers" if name == "none" else "with the line's absorbers"
-        lines.append(f"Bogie in its curve, {words}: {_bogie(cfg, modes, row)}")
-    return lines
-
-
-def _bogie(cfg: Config, modes: Values, row: int) -> str:
-    status = str(modes["status"][row])
-    if status != "converged":
-        return f"no steady running was found ({status.replace('_', ' ')})."
-    growth, frequency = modes["operating_growth_rate"][row], modes["operating_frequency"][row]
-    critical = float(modes["critical_friction_decrease"][row])
-    B, top = cfg["creep_force"]["B"], cfg["study"]["B_max"]
-    onset = f"self-excitation from B = {number(critical)} s/m on"
-    if np.isnan(critical):
-        onset = f"no onset of self-excitation up to B = {top:g} s/m"
-    does = "vibrates by itself" if growth >= 0.0 else "does not vibrate by itself"
-    return (
-        f"{onset}; at B = {B:g} s/m it {does} "
-        f"(growth rate {number(growth)} 1/s at {number(frequency)} Hz)."
+        loads = (number(1e-3 * float(load)) for load in curving["wheel_load"][k])
+        rows.append([f"wheel load (kN), {words}", *loads])
+    angles = dict(zip(map(str, curving["axle"]), curving["angle_of_attack"][0], strict=True))
+    of_wheels = (angles[str(name).partition("_")[0]] for name in curving["wheel"])
+    rows.append(
+        ["angle of attack of the axle (mrad)", *(number(1e3 * float(a)) for a in of_wheels)]
     )
-
-
-def spread(tuning: Values) -> list[str]:
-    """Tell in how many of the sampled cases the bogie vibrates by itself."""
-    count = int(tuning["sampled_steady_cases"])
-    if not count:
-        return ["None of the sampled conditions has a steady running: nothing can be told of them."]
-    parts = [
-        f"{words} {percent(share)}"
-        for words, share in zip(NAMES, tuning["self_excited_share"], strict=True)
-        if np.isfinite(share)
-    ]
-    return [f"Share of {count} sampled conditions with self-excitation: {', '.join(parts)}."]
-
-
-def recommendation(cfg: Config, tuning: Values) -> str:
-    """Tell the absorber that is recommended, or why there is none."""
-    status = str(tuning["status"][ROBUST])
-    if status == "no_equilibrium":
-        return "No recommendation: the line as configured has no steady running in its curve."
-    band = cfg["study"]["design_band"]
-    where = f"{band['min']:g} and {band['max']:g} Hz"
-    if status == "nothing_grows":
-        words = f"between {where} no order grows in any of the conditions"
-        if (tuning["growth_rate"][NONE, :, 1] >= 0.0).any():
-            return f"No tuning: {words}; against self-excitation see the map of the bogie."
-        return f"No absorber is needed: {words}, and none vibrates by itself."
-    units = unit_names(cfg)
-    if not np.isfinite(tuning["c_T"][ROBUST]):
-        return "No recommendation: with every absorber some condition vibrates by itself."
-    words = (
-        f"Recommended: the robust optimum, c_T = {number(tuning['c_T'][ROBUST])} {units['c_T']}, "
-        f"d_T = {number(tuning['d_T'][ROBUST])} {units['d_T']}. Of the growth between {where} it "
-        f"leaves {percent(tuning['nominal_factor'][ROBUST])}, in the worst case "
-        f"{percent(tuning['worst_factor'][ROBUST])}."
+    critical = modes["critical_friction_decrease"]
+    onsets = dict(zip(map(str, modes["absorber"]), critical, strict=True))
+    margin = ", ".join(
+        f"{number(float(onsets[name]))} ({words})"
+        for name, words in (("none", "no absorber"), ("paper", "line's absorber"))
+        if name in onsets
     )
-    if status == "self_excited":
-        words += " Some conditions that another absorber would keep quiet vibrate by themselves."
-    return words
-
-
-def unit_names(cfg: Config) -> dict[str, str]:
-    """Units of the absorber: of rotation, or of translation."""
-    if cfg["bogie"]["absorber"]["motion"] == "rotation":
-        return {"I_T": "kg m²", "c_T": "N m/rad", "d_T": "N m s/rad", "torque": "N m"}
-    return {"I_T": "kg", "c_T": "N/m", "d_T": "N s/m", "torque": "N"}
+    title = "Steady running in the curve; self-excitation from B (s/m)"
+    return Table(f"{title} {margin}", rows)
 
 
 def absorber_table(cfg: Config, tuning: Values) -> Table:
@@ -216,7 +144,7 @@ def absorber_table(cfg: Config, tuning: Values) -> Table:
         row(
             "growth left in the band, as configured", lambda k: percent(tuning["nominal_factor"][k])
         ),
-        row("growth left in the worst case", lambda k: _worst(tuning, k)),
+        row("growth left in the worst case", lambda k: worst(tuning, k)),
         row("growth rate at the line's B (1/s)", lambda k: number(tuning["growth_rate"][k, 0, 1])),
         row("added unsprung mass per axle (kg)", lambda k: _mass(tuning, k)),
         row("weight on one mounting (N)", plain("added_weight")),
@@ -271,13 +199,6 @@ def _band(tuning: Values, design: int, axis: int) -> str:
     return f"{below} to {above}"
 
 
-def _worst(tuning: Values, design: int) -> str:
-    excited = tuning["self_excited_cases"][design]
-    if np.isfinite(excited) and excited > 0.0:
-        return f"self-excited in {excited:.0f} of {tuning['counted_cases']:.0f}"
-    return percent(tuning["worst_factor"][design])
-
-
 def _mass(tuning: Values, design: int) -> str:
     mass, share = tuning["added_axle_mass"][design], tuning["added_axle_share"][design]
     return f"{number(mass)} ({percent(share)})" if np.isfinite(mass) else DASH
@@ -307,22 +228,6 @@ def peak_table(tuning: Values) -> Table:
             )
     title = "Growth left at each peak as configured, and of the robust optimum in the sample"
     return Table(title, rows)
-
-
-def place_of(coordinate: np.ndarray, value: float) -> int:
-    """Place of a value along a coordinate (k,) that holds it."""
-    return int(np.flatnonzero(coordinate == value)[0])
-
-
-def in_ranges(orders: Sequence[int]) -> str:
-    """Write whole numbers as ranges: 1 to 4, 7."""
-    pieces: list[list[int]] = []
-    for order in orders:
-        if pieces and order == pieces[-1][1] + 1:
-            pieces[-1][1] = order
-        else:
-            pieces.append([order, order])
-    return ", ".join(str(a) if a == b else f"{a} to {b}" for a, b in pieces) or "none"
 
 
 def order_table(maps: Values) -> Table:

@@ -6,7 +6,7 @@ For the scripts in `paper_figures/` only: the model knows nothing of figures.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -70,6 +70,35 @@ def mode_name(mode: str) -> str:
     for ending, words in MODES.items():
         mode = mode.removesuffix(ending) + words if mode.endswith(ending) else mode
     return mode.replace("_", " ")
+
+
+# How a simulation or an equilibrium ended, for readers.
+STATUS_WORDS = {
+    "no_equilibrium": "no steady running was found",
+    "not_converged": "no steady running was found",
+    "self_excited": "vibrates by itself, no order was simulated",
+    "not_periodic": "did not become periodic",
+    "wheel_lifted": "a wheel lifts",
+    "contact_lost": "a wheel loses contact",
+    "outside_profile": "a contact leaves the profiles",
+    "not_finite": "the simulation failed",
+}
+
+
+def status_words(status: Iterable[str], good: str) -> str:
+    """Say why there is no result; nothing where some ended well.
+
+    Parameters
+    ----------
+    status : iterable of str
+        How each part ended.
+    good : str
+        The status of what ended well.
+    """
+    ended = list(dict.fromkeys(map(str, status)))
+    if good in ended:
+        return ""
+    return "; ".join(STATUS_WORDS.get(each, each.replace("_", " ")) for each in ended)
 
 
 # Stiffness per unit of an axis, labels of stiffness and damping of the bogie's absorber.

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from tramdva.running.cache_folders import cache_roots
 from tramdva.running.parsed_code import ParsedCode, parsed, use_store
+from tramdva.running.stamps import computing_versions
 
 PACKAGE = Path(__file__).parents[1]
 # Modules that cannot change a result.
@@ -21,8 +22,8 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
     """Hash the code that a script reaches.
 
     Counted are the syntax trees, without docstrings, of the script and of each module of tramdva
-    that it imports, directly or through others. Comments, formatting, dates and the version of
-    Python do not matter.
+    that it imports, directly or through others, and the versions of the packages that compute.
+    Comments, formatting, dates and the version of Python do not matter.
 
     Parameters
     ----------
@@ -39,7 +40,7 @@ def code_hash(script: str | Path, *data: str | Path, package: Path = PACKAGE) ->
         20 hexadecimal digits.
     """
     own = read_module(script)
-    digest = hashlib.sha256(own.code.digest.encode())
+    digest = hashlib.sha256((own.code.digest + computing_versions()).encode())
     for name, module in sorted(reached_from(own, package).items()):
         digest.update((name + module.code.digest).encode())
     for path in data:

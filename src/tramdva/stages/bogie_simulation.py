@@ -11,7 +11,7 @@ import numpy as np
 
 from tramdva.bogie import integration, wheel_forces
 from tramdva.bogie.names import WHEELS
-from tramdva.bogie.revolutions import Settings, WaveRun, simulate_wave
+from tramdva.bogie.revolutions import Settings, WaveRun, hindrance, not_run, simulate_wave
 from tramdva.bogie.stored import StoredBogie, stored_bogie
 from tramdva.contact import patch
 from tramdva.contact.tables import stored_tables
@@ -68,9 +68,13 @@ def compute(
         numerics["samples"], numerics["revolutions"], numerics["longest_transient"],
         numerics["tolerance"], numerics["step_tolerance"],
     )  # fmt: skip
-    run = simulate_wave(
-        contacts, stored.bogie, stored.wheel_radius, order, amplitude, roughness["wheels"], settings
-    )
+    if why := hindrance(stored.bogie, str(bogie_linearisation["status"]) == "converged"):
+        run = not_run(contacts, stored.wheel_radius, settings, why)
+    else:
+        run = simulate_wave(
+            contacts, stored.bogie, stored.wheel_radius, order, amplitude, roughness["wheels"],
+            settings,
+        )  # fmt: skip
     return _variables(stored, bogie_linearisation, run, order, amplitude, roughness["wheels"])
 
 

@@ -27,8 +27,14 @@ BOGIE_ABSORBERS = {
 }
 
 WAVE_STATUS = (
-    "periodic", "not_periodic", "contact_lost", "outside_profile", "not_finite", "self_excited",
-)  # fmt: skip
+    "periodic",
+    "not_periodic",
+    "contact_lost",
+    "outside_profile",
+    "not_finite",
+    "no_equilibrium",
+    "self_excited",
+)
 
 PEAK_STATUS = ("found", "no_peak")
 
