@@ -142,7 +142,7 @@ WRONG = {
     ),
     "metre gauge, springs of the other": (
         "bogie: {wheel: {half_distance: 0.53}, axle: {half_length: 0.5}, "
-        "absorber: {lateral_position: 0.4}}",
+        "absorber: {lateral_position: 0.4}, secondary: {lateral_position: 0.55}}",
         "bogie: secondary.lateral_position = 0.55 m must be at most 0.48 m, between the wheels: "
         "wheel.half_distance = 0.53 m",
     ),

@@ -227,13 +227,6 @@ class BareBogie(Section):
     def _fits(self) -> Self:
         if self.axle.half_length > self.wheel.half_distance:
             raise ValueError("axle.half_length must be at most wheel.half_distance")
-        for name in ("stub", "primary", "secondary"):
-            position = getattr(self, name).lateral_position
-            if position > self.wheel.half_distance:
-                raise ValueError(
-                    f"{name}.lateral_position = {position:g} m must be at most "
-                    f"wheel.half_distance = {self.wheel.half_distance:g} m: it is inside the wheels"
-                )
         if self.axle.drop >= self.wheel.radius:
             raise ValueError("axle.drop must be less than wheel.radius")
         return self

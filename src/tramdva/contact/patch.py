@@ -266,21 +266,19 @@ def wheel_contact(
     )
     approach = cosine * radius_deviation_rate - v_n
     normal = hertz.damped_normal_force(elastic, approach, law.damping_time)
-    spin = cosine * rotation[2] - sine * spin_rate
-    slip = np.sqrt(v_x * v_x + v_t * v_t)
-    friction = friction_coefficient(slip, law.friction[0], law.friction[1], law.friction[2])
+    slip, spin = np.sqrt(v_x * v_x + v_t * v_t), cosine * rotation[2] - sine * spin_rate
+    friction = friction_coefficient(slip, *law.friction)
     nu_x, nu_y, phi = v_x / rolling_speed, v_t / rolling_speed, spin / rolling_speed
     force_x = force_t = moment_n = 0.0
     if normal > 0.0:
         force_x, force_t, moment_n = tangential_forces(
             law, a, b, normal, friction, nu_x, nu_y, phi, work, shear
         )
-    status = CONTACT if normal > 0.0 else NO_CONTACT
-    if found[7] != 0 or not np.isfinite(normal + force_x + force_t):
-        status = INVALID
-    if law.method == HALF_SPACE and normal > 0.0 and not creep_table.holds_for(a, b):
-        status = INVALID
-    result[STATUS] = status
+    known = law.method != HALF_SPACE or normal <= 0.0 or creep_table.holds_for(a, b)
+    if found[7] != 0 or not known or not np.isfinite(normal + force_x + force_t):
+        result[STATUS] = INVALID
+    else:
+        result[STATUS] = CONTACT if normal > 0.0 else NO_CONTACT
     result[NORMAL_FORCE] = normal
     result[LONGITUDINAL_FORCE] = force_x
     result[LATERAL_FORCE] = force_t

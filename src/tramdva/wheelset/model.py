@@ -1,11 +1,9 @@
 """Basic model of the leading wheelset: axle with hub, absorber, rim of the inner wheel (figure 1).
 
-Coordinates are the lateral positions y of axle and hub (A), absorber (T) and rim (R), measured
-from the
-outer rail towards the centre of the curve. The state is ``[y_A, y_T, y_R, y_A', y_T', y_R']`` in m
-and
-m/s, or ``[y_A, y_R, y_A', y_R']`` without absorber. The creep force ``F_y`` acts on the rim in the
-negative direction when the rim slips in the positive one.
+Coordinates are the lateral positions y of axle and hub (A), absorber (T) and rim (R), measured from
+the outer rail towards the centre of the curve. The state is ``[y_A, y_T, y_R, y_A', y_T', y_R']``
+in m and m/s, or ``[y_A, y_R, y_A', y_R']`` without absorber. The creep force ``F_y`` acts on the
+rim in the negative direction when the rim slips in the positive one.
 
 References
 ----------
