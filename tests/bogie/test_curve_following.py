@@ -66,7 +66,7 @@ def test_flank_takes_over_smoothly_as_the_curve_gets_sharper(sweep, sharp_line):
     assert np.abs(bend).max() < 0.5 * np.abs(np.diff(root[touching])).min()
     attack = np.array([angle_of_attack(run.curve, run.equilibrium)[0] for run in sweep])
     chord = sharp_line.bogie.half_wheelbase / RADII
-    play = -sharp_line.contact_geometry.rail.lateral_position / sharp_line.bogie.half_wheelbase
+    play = 5e-3 / sharp_line.bogie.half_wheelbase  # of flanges that climb in their roots
     assert np.all((attack > chord) & (attack < chord + play))
 
 

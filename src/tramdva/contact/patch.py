@@ -142,10 +142,13 @@ def tangential_forces(
 ):
     """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method.
 
-    Polach's formula and the table know no patch that is turned: they leave the shear out.
+    Polach's formula and the table know no patch that is turned: they leave the shear out. A patch
+    that is longer or wider than the table knows has no forces: NaN.
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if law.method == HALF_SPACE:
+        if not creep_table.holds_for(a, b):
+            return np.nan, np.nan, np.nan
         return creep_table.half_space_forces(
             a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
             law.shear_modulus, law.creep_table,
@@ -274,11 +277,10 @@ def wheel_contact(
         force_x, force_t, moment_n = tangential_forces(
             law, a, b, normal, friction, nu_x, nu_y, phi, work, shear
         )
-    known = law.method != HALF_SPACE or normal <= 0.0 or creep_table.holds_for(a, b)
-    if found[7] != 0 or not known or not np.isfinite(normal + force_x + force_t):
-        result[STATUS] = INVALID
-    else:
-        result[STATUS] = CONTACT if normal > 0.0 else NO_CONTACT
+    status = CONTACT if normal > 0.0 else NO_CONTACT
+    if found[7] != 0 or not np.isfinite(normal + force_x + force_t):
+        status = INVALID
+    result[STATUS] = status
     result[NORMAL_FORCE] = normal
     result[LONGITUDINAL_FORCE] = force_x
     result[LATERAL_FORCE] = force_t
