@@ -21,7 +21,7 @@ def test_a_chain_is_its_own_reduction(logarithms) -> None:
     chain = Chain(*(np.array(TABLE_1) * np.exp(logarithms)))
     found = modes_of_chain(chain)
     assume(len(found) == 2)  # none is overdamped
-    # Where both modes share strain alike between axle and layer, dampers cannot be told apart.
+    # Where both modes strain axle and layer alike, nobody can tell their dampers apart.
     motion = np.array([chain.share_of_axle(mode.pole) for mode in found])
     shares = np.log(motion / np.array([abs(1.0 - motion[0]), 1.0 + motion[1]]))
     assume(abs(shares[0] - shares[1]) > 0.5)
@@ -152,7 +152,8 @@ def test_paper_s_second_bending_is_the_reference(running) -> None:
     assert found.name[front.index] == "second_bending_front"
     assert front.likeness > 0.9
     others = tracking.likeness(
-        tracking.SECOND_BENDING, tracking.shape_of_axle(running.curve, "front", found.shape)
+        tracking.SECOND_BENDING["front"],
+        tracking.shape_of_axle(running.curve, "front", found.shape),
     )
     moved = [k for k, name in enumerate(found.name) if name.endswith("front") and k != front.index]
-    assert others[moved].max() < 0.4
+    assert others[moved].max() < 0.5

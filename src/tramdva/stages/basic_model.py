@@ -59,7 +59,8 @@ def compute(
     seen, status = None, run.equilibrium.status
     if status == "converged":
         found |= _in_the_curve(line, run)
-        seen = _seen(line, run, frequency_limits(cfg))
+        # The mode of a stiff resilient wheel may lie above the vibrations that polygonise wheels.
+        seen = _seen(line, run, (frequency_limits(cfg)[0], line.cutoff_frequency))
         status = _reduce(line, run, seen, found)
     own = {name: cfg[section][name] for name, section in SECTION_OF.items()}
     used = {name: found[name] if value is None else value for name, value in own.items()}
