@@ -132,10 +132,12 @@ rule all:
 rule check:
     input:
         [files_of("preflight", line) for line in LINES],
+    params:
+        python=sys.executable,
     message:
         "the lines at a glance"
     shell:
-        "python -m tramdva.report.preflight {input:q}"
+        "{params.python:q} -m tramdva.report.preflight {input:q}"
 
 
 include: "workflow/rules/stages.smk"

@@ -72,11 +72,15 @@ def test_without_damping_the_formulas_are_exact() -> None:
     np.testing.assert_allclose(undamped_chain(*modes_of_chain(chain)), chain, rtol=1e-6)
 
 
-def test_modes_that_no_chain_has_are_none() -> None:
+def test_a_vibration_that_other_wheels_feed_makes_a_damper_below_zero() -> None:
     first, second = modes_of_chain(TABLE_1)
-    growing = first._replace(pole=first.pole - 4.0 * first.pole.real)
+    fed = first._replace(pole=first.pole - 4.0 * first.pole.real)
 
-    assert chain_of(growing, second) is None
+    chain = chain_of(fed, second)
+
+    assert chain.d_A < 0.0 < chain.d_R
+    assert modes_of_chain(chain)[0].pole.real == pytest.approx(fed.pole.real, rel=1e-6)
+    assert chain.c_A == pytest.approx(TABLE_1.c_A, rel=0.02)
 
 
 def test_creep_force_of_the_wheel_is_left_out_and_its_normal_force_kept(running) -> None:

@@ -1,5 +1,6 @@
 """What happens before and after the rules: configuration, caches, one run at a time, messages."""
 
+import sys
 from pathlib import Path
 
 from tramdva.configuration import measured_files

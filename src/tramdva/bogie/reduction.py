@@ -22,6 +22,7 @@ from tramdva.bogie.names import FORCES, WHEELS
 from tramdva.bogie.tracking import second_bending
 
 NO_FRICTION = 1e-9
+HEAVIER = 4.0
 
 
 class PointMode(NamedTuple):
@@ -125,8 +126,9 @@ def chain_of(first: PointMode, second: PointMode) -> Chain | None:
 
     Notes
     -----
-    Newton's method (Levenberg-Marquardt) from `undamped_chain`. A chain whose masses, stiffnesses
-    and dampings are not all positive is none.
+    Newton's method (Levenberg-Marquardt) from `undamped_chain`. A chain whose masses and
+    stiffnesses are not all positive is none. A damping below zero says that other wheels feed the
+    vibration.
     """
     guess = np.array(undamped_chain(first, second))
     size = np.array([guess[0], 0, guess[2], guess[3], 0, guess[5]])
@@ -144,7 +146,7 @@ def chain_of(first: PointMode, second: PointMode) -> Chain | None:
 
     solved = least_squares(missed, guess / size, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
     chain = Chain(*map(float, solved.x * size))
-    if np.abs(solved.fun).max() > 1e-8 or min(chain) <= 0.0:
+    if np.abs(solved.fun).max() > 1e-8 or min(chain[0], chain[2], chain[3], chain[5]) <= 0.0:
         return None
     return chain
 
@@ -191,8 +193,9 @@ def reduced(
 
     Notes
     -----
-    Second bending is found by its shape (`tracking`). Of the modes of resilient wheels the one of
-    the least modal mass at the point counts: that which moves it most.
+    Second bending is found by its shape (`tracking`). Of the modes of resilient wheels above it the
+    lowest counts whose modal mass at the point is at most `HEAVIER` times that of second bending:
+    the others move other wheels.
     """
     rim = system.vehicle.motion_of[f"{wheel}_rim"]
 
@@ -210,11 +213,13 @@ def reduced(
     wheels = [
         mode
         for mode, name in zip(point, named.name, strict=True)
-        if name.startswith("resilient_wheel") and mode is not bending
+        if name.startswith("resilient_wheel")
+        and mode.frequency > bending.frequency
+        and mode.mass < HEAVIER * bending.mass
     ]
     places = [at(motion, np.array([bending.pole]))[0] for motion in along]
     carried = sum(1.0 / place.mass for place in places)
-    return Reduction(bending, min(wheels, key=lambda mode: mode.mass, default=None), carried)
+    return Reduction(bending, min(wheels, key=lambda mode: mode.frequency, default=None), carried)
 
 
 def absorber_mass(inertia: float, seen: Reduction, share_of_axle: float) -> float:

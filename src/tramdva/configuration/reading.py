@@ -221,7 +221,9 @@ def _validate(
             if slip["type"] == "too_short" and slip["input"]:
                 continue  # only because its items, reported themselves, did not count
             where = _origin(slip["loc"], layers, missing=slip["type"] == "missing").name
-            problems.append(f"{where}: {prefix}{messages.in_words(slip, model)}")
+            words = f"{prefix}{messages.in_words(slip, model)}"
+            words = words.replace("did you mean ", f"did you mean {prefix}")
+            problems.append(f"{where}: {words}")
         return None
 
 

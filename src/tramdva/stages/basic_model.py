@@ -35,7 +35,7 @@ REASONS = {
     "outside_profile": "a wheel of the bogie leaves its profile or contact table in the curve",
     "no_attack": "the front axle has no angle of attack of 1 mrad: its inner wheel does not slide",
     "no_mode": "the bogie has no second bending or no resilient wheel mode at the inner wheel",
-    "no_chain": "no two masses with positive springs and dampers have the modes of the bogie",
+    "no_chain": "no two masses on two springs have the modes of the bogie",
 }
 
 
