@@ -4,7 +4,10 @@
     python3 run.py [...]         all figures and numbers; arguments go to snakemake
     python3 run.py check [...]   the lines at a glance, in seconds; arguments go to snakemake
     python3 run.py test [...]    the tests; arguments go to pytest
-    python3 run.py report        report.html with the figures that exist
+    python3 run.py quick [...]   the same coarsely, in the folder quick/ of its own; `quick report`,
+                                 `quick status` and so on concern that folder
+    python3 run.py status [...]  what is missing, stale or coarse
+    python3 run.py report        report.html with the figures that exist; none beside other values
     python3 run.py crate [...]   ro-crate-metadata.json: where each figure and number comes from
     python3 run.py archive [...] a .tar.gz of sources, results and crate that runs elsewhere
     python3 run.py docs          the documentation as pages in docs/_build/html
@@ -32,6 +35,8 @@ VENV = ROOT / ".venv"
 BIN = VENV / "bin"
 STAMP = VENV / "tramdva-stamp"
 LOCK = ROOT / "requirements.lock"
+QUICK = "quick"  # folder of coarse results
+STATUS = ("python", "-m", "tramdva.record.status")
 PYTHONS = ((3, 11), (3, 12), (3, 13))  # as in pyproject.toml
 
 
@@ -68,12 +73,16 @@ def cannot(error: OSError) -> str:
 
 def command(arguments: list[str]) -> list[str]:
     """Return the program, with its arguments, that the arguments of this one ask for."""
+    if arguments[:1] == ["quick"]:
+        return quick(arguments[1:])
     if arguments[:1] == ["test"]:
         return ["pytest", *arguments[1:]]
     if arguments[:1] == ["check"]:
         return ["snakemake", "check", "-j2", "--quiet", "all", *arguments[1:]]
     if arguments[:1] == ["report"]:
-        return ["snakemake", "--report", "report.html", *arguments[1:]]
+        return [*STATUS, "--report", str(ROOT / "report.html"), *arguments[1:]]
+    if arguments[:1] == ["status"]:
+        return [*STATUS, *arguments[1:]]
     if arguments[:1] in (["crate"], ["archive"]):
         return ["python", "-m", f"tramdva.record.{arguments[0]}", *arguments[1:]]
     if arguments[:1] == ["docs"]:
@@ -82,6 +91,18 @@ def command(arguments: list[str]) -> list[str]:
     if any(cores.fullmatch(argument) for argument in arguments):
         return ["snakemake", *arguments]
     return ["snakemake", "-j2", *arguments]
+
+
+def quick(arguments: list[str]) -> list[str]:
+    """Return the program for a coarse run, which has a folder of its own.
+
+    Full results stay as they are, and nobody takes one for the other.
+    """
+    coarse = ["--configfile", "config/quick.yaml", "--directory", QUICK]
+    if arguments[:1] == ["report"]:
+        target = str(ROOT / QUICK / "report.html")
+        return [*STATUS, "--report", target, *arguments[1:], *coarse]
+    return command([*arguments, *coarse])
 
 
 def config_files(arguments: list[str]) -> list[str]:

@@ -10,7 +10,14 @@ from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
 from tramdva import results
-from tramdva.report import design_sheet, design_sheet_page, figures, sheet_numbers, sheet_verdicts
+from tramdva.report import (
+    design_sheet,
+    design_sheet_page,
+    figures,
+    sheet_numbers,
+    sheet_verdicts,
+    stamp,
+)
 from tramdva.report.design_sheet import Sheet, Table
 from tramdva.report.script import run
 from tramdva.report.sheet_verdicts import NAMES, NOMINAL, NONE, PAPER, ROBUST
@@ -81,6 +88,7 @@ def paper() -> Figure:
     """Return an empty page."""
     figure = figures.canvas(WIDTH, HEIGHT)
     figure.set_layout_engine("none")
+    write(figure, (MARGIN, HEIGHT - 10.0), stamp.words(), fontsize=5.5, color="0.4")
     return figure
 
 

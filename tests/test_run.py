@@ -16,6 +16,9 @@ import pytest
 OWN = "python" + ".".join(map(str, sys.version_info[:2]))  # name of this interpreter
 
 
+COARSE = ["--configfile", "config/quick.yaml", "--directory", "quick"]
+
+
 @pytest.fixture
 def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """run.py as it would be in another folder."""
@@ -50,7 +53,10 @@ def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleTy
         (["--config", "lines=[x]"], ["snakemake", "-j2", "--config", "lines=[x]"]),
         (["test"], ["pytest"]),
         (["test", "-k", "hopf"], ["pytest", "-k", "hopf"]),
-        (["report"], ["snakemake", "--report", "report.html"]),
+        (["status", "-q"], ["python", "-m", "tramdva.record.status", "-q"]),
+        (["quick"], ["snakemake", "-j2", *COARSE]),
+        (["quick", "-j1"], ["snakemake", "-j1", *COARSE]),
+        (["quick", "status"], ["python", "-m", "tramdva.record.status", *COARSE]),
         (["crate", "-j1"], ["python", "-m", "tramdva.record.crate", "-j1"]),
         (["archive"], ["python", "-m", "tramdva.record.archive"]),
         (["docs", "-q"], ["sphinx-build", "-W", "--keep-going", "-q", "docs", "docs/_build/html"]),
@@ -61,6 +67,17 @@ def test_arguments_go_to_the_right_program(
     run: ModuleType, arguments: list[str], program: list[str]
 ) -> None:
     assert run.command(arguments) == program
+
+
+def test_reports_lie_beside_their_results(run: ModuleType) -> None:
+    status = ["python", "-m", "tramdva.record.status", "--report"]
+
+    assert run.command(["report"]) == [*status, str(run.ROOT / "report.html")]
+    assert run.command(["quick", "report"]) == [
+        *status,
+        str(run.ROOT / "quick/report.html"),
+        *COARSE,
+    ]
 
 
 @pytest.mark.parametrize(

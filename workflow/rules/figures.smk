@@ -28,6 +28,8 @@ for figure, (reads, _, shows, kinds) in FIGURES.items():
             figure=figure,
             cfg=lambda w, figure=figure: values(w.line, figure),
             code=code_hash(DRAWINGS / f"{figure}.py", *parts_of(figure, kinds)),
+            origin=lambda w, figure=figure: origins.of(w.line, figure),
+            resolution=lambda w, figure=figure: origins.resolution(w.line, figure),
         message:
             f"{{wildcards.line}}: {shows}"
         script:

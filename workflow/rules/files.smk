@@ -4,10 +4,12 @@ import itertools
 from functools import partial
 
 from tramdva.configuration.uses import used_values
+from tramdva.record.origin import Origins
 from tramdva.running.code_hash import code_hash
 
 SCRIPTS, DRAWINGS = ROOT / "workflow/scripts", ROOT / "paper_figures"
 values = partial(used_values, configuration)
+origins = Origins(configuration, {"STAGES": STAGES, "JOBS": JOBS, "FIGURES": FIGURES}, ROOT)
 
 ABSORBERS = {
     name: line.study.evolution_tendency.absorbers for name, line in configuration.lines.items()

@@ -29,6 +29,10 @@ report: "../report/workflow.rst"
 
 
 onstart:
+    coarse = any(
+        origins.resolution(line, figure) == "coarse" for line in LINES for figure in FIGURES
+    )
+    supervision.keep_apart("coarse" if coarse else "full")
     supervision.begin_run("results", "paper_figures", "logs")
     job.stop_polling(workflow)
     compile_kernels_once()

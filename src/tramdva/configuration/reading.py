@@ -33,7 +33,11 @@ class ConfigurationError(ValueError):
 
 @dataclass(frozen=True)
 class Configuration:
-    """A validated configuration: the run, its lines by name and the measured files of each."""
+    """A validated configuration: the run, its lines by name and the measured files of each.
+
+    `own_run` is what `config.yaml` says by itself, without further files and overrides: what was
+    made with its numerics is called full.
+    """
 
     run: Run
     lines: Mapping[str, Line]
@@ -41,6 +45,7 @@ class Configuration:
     # By line the keys of the basic model that are derived from its bogie; the values that stand
     # there in `lines` are the paper's and reach no stage.
     derived: Mapping[str, tuple[str, ...]]
+    own_run: Run
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,8 @@ def load(
         problems += grids.problems(run.numerics, lines)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(messages.harmless, problems))))
-    return Configuration(run, lines, measured, derived)
+    own_run = _validate(Run, layers[:1], []) or run
+    return Configuration(run, lines, measured, derived, own_run)
 
 
 def load_or_exit(

@@ -6,6 +6,7 @@ import base64
 import html
 from collections.abc import Sequence
 
+from tramdva.report import stamp
 from tramdva.report.design_sheet import Sheet, Table
 
 PAGE = """<!DOCTYPE html>
@@ -23,6 +24,7 @@ th:first-child, td:first-child {{ text-align: left; }}
 thead th {{ border-bottom: 1px solid; vertical-align: bottom; }}
 img {{ width: 100%; }}
 .notes {{ font-size: 0.9em; color: #333; }}
+footer {{ color: #666; font-size: 0.75em; margin-top: 1.5em; }}
 </style>
 </head>
 <body>
@@ -39,6 +41,7 @@ img {{ width: 100%; }}
 <ul class="notes">
 {notes}
 </ul>
+<footer>{made}</footer>
 </body>
 </html>
 """
@@ -60,6 +63,7 @@ def page(content: Sheet, picture: bytes) -> str:
         more=tables(content.ranges),
         notes=items(content.notes),
         picture=base64.b64encode(picture).decode(),
+        made=html.escape(stamp.words()),
     )
 
 

@@ -12,7 +12,7 @@ import bokeh.embed
 import numpy as np
 from bokeh.plotting import figure
 
-from tramdva.report import packed_arrays
+from tramdva.report import packed_arrays, stamp
 
 LIBRARY = Path(bokeh.__file__).parent / "server/static/js/bokeh.min.js"
 
@@ -81,6 +81,7 @@ def filled(folder: Path, label: str, parts: Sequence[Part]) -> str:
         "data": json.dumps(blobs),
         "script": (folder / "explorer.js").read_text(encoding="utf-8"),
         "title": f"Absorber explorer: {html.escape(label)}",
+        "made": html.escape(stamp.words()),
         "label": html.escape(label),  # last: a label cannot stand for another part
     }.items():
         text = text.replace(f"@{name}@", content)

@@ -20,10 +20,14 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
+from tramdva.report import stamp
 from tramdva.results import atomically
 
 SINGLE_COLUMN = 84.0  # mm
 DOUBLE_COLUMN = 174.0  # mm
+STRIP = 2.6  # mm, of the stamp below a figure
+SIGNED = 4.5  # pt
+MARK = "tramdva origin"
 MEGA = 1e6
 KILO = 1e3
 MILLI = 1e-3
@@ -138,12 +142,31 @@ def save(figure: Figure, pdf: str | Path, png: str | Path, title: str) -> None:
     title : str
         Stands in the metadata of both.
     """
+    sign(figure)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # both files get the same layout, worked out once
-    metadata = {"pdf": {"Title": title, "CreationDate": None}, "png": {"Title": title}}
+    made = stamp.current()
+    mark = {MARK: made.origin, "Source": made.words()} if made else {}
+    about = {"Title": title, "CreationDate": None} | ({"Subject": made.words()} if made else {})
+    metadata = {"pdf": about, "png": {"Title": title, **mark}}
     for path, kind in ((pdf, "pdf"), (png, "png")):
         with atomically(path) as part:
             figure.savefig(part, format=kind, metadata=metadata[kind])
+
+
+def sign(figure: Figure) -> None:
+    """Write the current stamp below everything else, in a strip of its own at the lower right."""
+    if not (words := stamp.words()):
+        return
+    height = figure.get_figheight() + STRIP / 25.4
+    figure.set_figheight(height)
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.set(rect=(0.0, STRIP / 25.4 / height, 1.0, 1.0 - STRIP / 25.4 / height))
+    coarse = stamp.current().resolution != "full"
+    figure.text(
+        0.995, 0.002, words, ha="right", va="bottom", fontsize=SIGNED,
+        color=ONSET if coarse else "0.45",
+    )  # fmt: skip
 
 
 def letter(axes: Axes, name: str) -> Text:

@@ -8,7 +8,8 @@ from collections.abc import Callable
 from typing import Any
 
 from tramdva import results
-from tramdva.report import figures
+from tramdva.report import figures, stamp
+from tramdva.report.stamp import Stamp
 from tramdva.running import job
 
 
@@ -29,10 +30,12 @@ def run(main: Callable[..., None], snakemake: Any) -> None:
             **dict(snakemake.params.items()),
             **dict(snakemake.wildcards.items()),
         }
-        if reason := no_result(dict(snakemake.input.items())):
-            say_nothing(dict(snakemake.output.items()), snakemake.params.cfg, reason)
-            return
-        main(**{name: offered[name] for name in inspect.signature(main).parameters})
+        made = Stamp(snakemake.wildcards.line, snakemake.params.resolution, snakemake.params.origin)
+        with stamp.shown(made):
+            if reason := no_result(dict(snakemake.input.items())):
+                say_nothing(dict(snakemake.output.items()), snakemake.params.cfg, reason)
+                return
+            main(**{name: offered[name] for name in inspect.signature(main).parameters})
 
 
 def no_result(files: dict[str, Any]) -> str:

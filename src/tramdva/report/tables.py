@@ -7,6 +7,7 @@ import html
 from collections.abc import Sequence
 from pathlib import Path
 
+from tramdva.report import stamp
 from tramdva.results import atomically
 
 PAGE = """<!DOCTYPE html>
@@ -20,6 +21,7 @@ table {{ border-collapse: collapse; border-top: 2px solid; border-bottom: 2px so
 th, td {{ padding: 0.3em 0.8em; text-align: right; }}
 th:first-child, td:first-child {{ text-align: left; }}
 thead th {{ border-bottom: 1px solid; vertical-align: bottom; font-weight: bold; }}
+footer {{ color: #666; font-size: 0.75em; margin-top: 1.5em; }}
 </style>
 </head>
 <body>
@@ -31,6 +33,7 @@ thead th {{ border-bottom: 1px solid; vertical-align: bottom; font-weight: bold;
 {body}
 </tbody>
 </table>
+<footer>{made}</footer>
 </body>
 </html>
 """
@@ -54,6 +57,8 @@ def save(table: str | Path, page: str | Path, title: str, rows: Sequence[Sequenc
         "<tr>" + "".join(f"<{tag}>{html.escape(cell) or '–'}</{tag}>" for cell in row) + "</tr>"
         for tag, row in [("th", rows[0]), *(("td", row) for row in rows[1:])]
     )
-    text = PAGE.format(title=html.escape(title), head=head, body="\n".join(body))
+    text = PAGE.format(
+        title=html.escape(title), head=head, body="\n".join(body), made=html.escape(stamp.words())
+    )
     with atomically(page) as part:
         part.write_text(text, encoding="utf-8")

@@ -24,6 +24,7 @@ from typing import IO
 FOLDER = Path(".snakemake")
 ALIVE = FOLDER / "tramdva-alive"  # locked by living processes; names the machine of the first
 RUN = FOLDER / "tramdva-run"  # names the latest run
+RESOLUTION = FOLDER / "tramdva-resolution"  # of the results in the folder
 RUN_VARIABLE = "TRAMDVA_RUN"
 PROCESS_VARIABLE = "TRAMDVA_SNAKEMAKE_PROCESS"
 LEAST_FREE = 200_000  # bytes, for locks, logs and records
@@ -134,6 +135,32 @@ def begin_run(*folders: str) -> None:
     os.environ[RUN_VARIABLE] = token
     RUN.write_text(f"{token} process {os.getpid()} on {socket.gethostname()}", encoding="utf-8")
     _terminate_without_deadlock()
+
+
+def keep_apart(resolution: str) -> None:
+    """Refuse coarse results in a folder of full ones, which they would replace.
+
+    Parameters
+    ----------
+    resolution : str
+        ``full`` or ``coarse``.
+
+    Raises
+    ------
+    SystemExit
+        Where the folder holds full results and those of this run are coarse.
+    """
+    try:
+        there = RESOLUTION.read_text(encoding="utf-8")
+    except OSError:
+        there = resolution
+    if there == "full" and resolution == "coarse":
+        raise SystemExit(
+            f"{Path.cwd()}: holds full results, which coarse ones would replace: "
+            "python3 run.py quick makes them in a folder of their own (or --directory <folder>); "
+            f"to replace them nevertheless, remove {RESOLUTION}"
+        )
+    RESOLUTION.write_text(resolution, encoding="utf-8")
 
 
 def _terminate_without_deadlock() -> None:
