@@ -76,7 +76,7 @@ def draw_map(
     if np.isfinite(smallest):
         place = c_T / unit, d_T
         axes.plot(*place, "o", color="white", markersize=3)
-        words = f"best: {smallest:.2f}"
+        words = f"least of the map: {smallest:.2f}"
         axes.annotate(words, place, (5, 2), textcoords="offset points", color="white")
     return image
 

@@ -19,13 +19,15 @@ from tramdva.configuration.reading import load_or_exit
 from tramdva.record import origin, run_record
 from tramdva.record.run_record import IncompleteRunError, Made
 
+STATES = ("current", "stale", "kept", "missing")
 SHOWN = 10  # files of a kind that are named
 
 
 class Found(NamedTuple):
     """A file of the run: where it should be, its line, its state and what is said of it.
 
-    state : ``current``, ``missing``, ``stale`` (of other values, code or inputs, or changed)
+    state : ``current``, ``missing``, ``stale`` (of other values, code or inputs, or changed), or
+        ``kept`` (not made here)
     """
 
     path: str
@@ -70,6 +72,8 @@ def _found(file: Made) -> Found:
     line = file.path.split("/")[1]
     if not Path(file.path).is_file():
         return Found(file.path, line, "missing", "is missing", False)
+    if not file.record:
+        return Found(file.path, line, "kept", "comes with the repository", _is_coarse(file.path))
     fault = run_record._fault(file)
     return Found(file.path, line, "stale" if fault else "current", fault, _is_coarse(file.path))
 
@@ -83,7 +87,7 @@ def told(found: Sequence[Found], outdated: Sequence[str] = ()) -> Iterator[str]:
     for line in dict.fromkeys(file.line for file in found):
         of_line = [file for file in found if file.line == line]
         count = Counter(file.state for file in of_line)
-        words = ", ".join(f"{count[s]} {s}" for s in ("current", "stale", "missing") if count[s])
+        words = ", ".join(f"{count[s]} {s}" for s in STATES if count[s])
         coarse = " (pictures of coarse numerics)" if any(f.coarse for f in of_line) else ""
         yield f"{line}: {words}{coarse}"
     for state in ("stale", "missing"):

@@ -21,6 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from tramdva.report import stamp
+from tramdva.report.design_names import design_name as design_name  # for the scripts
 from tramdva.results import atomically
 
 SINGLE_COLUMN = 84.0  # mm
@@ -41,23 +42,8 @@ SPREAD = "cividis"  # for ordered values: its lightness is monotone, so it survi
 DASHES = ("--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1.5, 0.8)), (0, (8, 2)), (0, (3, 1)))
 MARKERS = "osD^vP"
 
-DESIGNS = {
-    "none": "no absorber",
-    "paper": "line's absorber",
-    "den_hartog": "Den Hartog",
-    "den_hartog_sqrt2": "Den Hartog, damping × √2",
-    "abscissa_damping": "Den Hartog, damping of largest decay",
-    "spectral_abscissa": "largest decay",
-    "h_infinity": "lowest peak (H∞)",
-}
-
 # Absorbers of the bogie; without and with the paper's as in the paper.
 ABSORBER_COLOURS = {"none": "C1", "paper": "0.55", "tuned": "C2"}
-
-
-def design_name(design: str) -> str:
-    """Name a design of the absorber for readers."""
-    return DESIGNS.get(design, design.replace("_", " "))
 
 
 MODES = {

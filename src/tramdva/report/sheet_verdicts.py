@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from tramdva.report.design_names import NAMED
 from tramdva.report.sheet_numbers import number, percent
 
 Config = Mapping[str, Any]  # values of the configuration
 Values = Mapping[str, np.ndarray]  # variables of a result file, SI units
 KMH = 3.6
 NONE, PAPER, NOMINAL, ROBUST = range(4)
-NAMES = ("no absorber", "line's absorber", "nominal optimum", "robust optimum")
+NAMES = tuple(NAMED.values())
 FORCED, OPERATING = range(2)  # of the friction in growth rates
 
 BOGIE = {
