@@ -53,20 +53,24 @@ def test_wheels_carry_the_tram_in_every_curve(sweep, sharp_line):
 
 
 def test_flank_takes_over_smoothly_as_the_curve_gets_sharper(sweep, sharp_line):
-    """The flank of the front outer wheel comes in somewhere and only takes more and more."""
+    """The flank of the front outer wheel comes in below 23 m and only takes more and more.
+
+    At 15 m the tread carries beside the root.
+    """
     normal = np.array([run.equilibrium.results[0, :, patch.NORMAL_FORCE] for run in sweep])
-    flank, root = normal[:, 2], normal[:, 0] + normal[:, 1]  # at 15 m the tread touches as well
+    flank, root = normal[:, 2], normal[:, 0] + normal[:, 1]
     touching = flank > 0.0
-    assert 0 < touching.argmax() < 7
-    assert touching[touching.argmax() :].all()
+    np.testing.assert_array_equal(touching, RADII < 22.5)
     assert np.all(np.diff(flank[touching]) > 0.0)
     assert np.all(np.diff(root[touching]) < 0.0)
     # No jump: neighbours differ by about as much as theirs do.
     bend = np.diff(root[touching], 2)
-    assert np.abs(bend).max() < 0.5 * np.abs(np.diff(root[touching])).min()
+    assert np.abs(bend).max() < 0.5 * np.median(np.abs(np.diff(root[touching])))
     attack = np.array([angle_of_attack(run.curve, run.equilibrium)[0] for run in sweep])
     chord = sharp_line.bogie.half_wheelbase / RADII
-    play = 5e-3 / sharp_line.bogie.half_wheelbase  # of flanges that climb in their roots
+    # The flanges have a play of 3 mm with the tops of the rails 4 mm inside the tape circles.
+    position = sharp_line.contact_geometry.rail.lateral_position
+    play = (3e-3 + position + 4e-3) / sharp_line.bogie.half_wheelbase
     assert np.all((attack > chord) & (attack < chord + play))
 
 
