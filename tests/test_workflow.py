@@ -237,7 +237,8 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
     elif isinstance(tree, list):
         yield "", [tree[0] * 1.01, *tree[1:]]
     elif isinstance(tree, str):
-        yield "", {"rotation": "translation", "chart": "smoothed"}.get(tree, f"{tree}x")
+        words = {"rotation": "translation", "chart": "smoothed", "half_space": "fastsim"}
+        yield "", words.get(tree, f"{tree}x")
     elif isinstance(tree, int):
         yield "", tree + 1
     else:
