@@ -1,5 +1,6 @@
 """Threads and compiled code are settled before anything imports NumPy or Numba."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -102,11 +103,24 @@ def quick_run(
     """Folder in which the whole pipeline ran with coarse numerics."""
     folder = tmp_path_factory.mktemp("quick")
     if given := request.config.getoption("--quick-run"):
-        shutil.copytree(given, folder, dirs_exist_ok=True)
+        return shutil.copytree(given, folder, dirs_exist_ok=True)
+    if not hasattr(request.config, "workerinput"):
+        run_quickly(snakemake, folder)
         return folder
+    # Processes of pytest-xdist share a run: the first makes it on all cores, the others wait.
+    shared = tmp_path_factory.getbasetemp().parent / "quick"
+    with shared.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (made := shared.with_suffix(".made")).exists():
+            run_quickly(snakemake, shared)
+            made.touch()
+    return shutil.copytree(shared, folder, dirs_exist_ok=True)
+
+
+def run_quickly(snakemake, folder: Path) -> None:
+    """Run the whole pipeline with coarse numerics."""
     ended = snakemake(folder, "--configfile", "config/quick.yaml")
     assert ended.returncode == 0, ended.stdout + ended.stderr
-    return folder
 
 
 @pytest.fixture(scope="session")
