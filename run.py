@@ -3,7 +3,7 @@
 
     python3 run.py [...]         all figures and numbers; arguments go to snakemake
     python3 run.py check [...]   the lines at a glance, in seconds; arguments go to snakemake
-    python3 run.py test [...]    the tests; arguments go to pytest
+    python3 run.py test [...]    the tests, on two cores; arguments go to pytest
     python3 run.py quick [...]   the same coarsely, in the folder quick/ of its own; `quick report`,
                                  `quick status` and so on concern that folder
     python3 run.py status [...]  what is missing, stale or coarse
@@ -76,7 +76,9 @@ def command(arguments: list[str]) -> list[str]:
     if arguments[:1] == ["quick"]:
         return quick(arguments[1:])
     if arguments[:1] == ["test"]:
-        return ["pytest", *arguments[1:]]
+        chosen = any(re.match(r"-n|--numprocesses|-p", argument) for argument in arguments)
+        parallel = [] if chosen else ["--numprocesses=2", "--dist=loadfile"]
+        return ["pytest", *parallel, *arguments[1:]]
     if arguments[:1] == ["check"]:
         return ["snakemake", "check", "-j2", "--quiet", "all", *arguments[1:]]
     if arguments[:1] == ["report"]:
