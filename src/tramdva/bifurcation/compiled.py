@@ -221,3 +221,11 @@ def _physical_parameters(system, parameters):
         for j in range(parameters.shape[1]):
             out[i, j] = parameters[i, j] * system.parameters[j]
     return out
+
+
+@inner_jit
+def fill(out, values):
+    """Copy element by element: an assignment of arrays compiles seconds of error messages."""
+    flat = values.reshape(-1)
+    for k in range(out.size):
+        out[k] = flat[k]

@@ -272,9 +272,22 @@ def _worst(results):
 
 
 def run(
-    modal, contacts, passage, excitation, tables, interval, tolerance, level, time, z, work,
-    locals_out, results_out, columns, every,
-) -> tuple[int, int, int, int]:  # fmt: skip
+    modal: ModalContacts,
+    contacts: wheel_forces.Contacts,
+    passage: Passage,
+    excitation: Excitation,
+    tables: np.ndarray,
+    interval: float,
+    tolerance: float,
+    level: int,
+    time: float,
+    z: np.ndarray,
+    work: tuple,
+    locals_out: np.ndarray,
+    results_out: np.ndarray,
+    columns: np.ndarray,
+    every: int,
+) -> tuple[int, int, int, int]:
     """Integrate over `locals_out.shape[0] * every` intervals; z is advanced.
 
     Parameters

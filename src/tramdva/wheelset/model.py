@@ -18,7 +18,6 @@ import numpy as np
 from numba import carray
 
 from tramdva.bifurcation import compiled
-from tramdva.bifurcation.elimination import inner_jit
 from tramdva.bifurcation.system import DynamicalSystem, Kernels, Scaling, rescaled
 from tramdva.contact.creep_force import (
     creep_force,
@@ -427,20 +426,14 @@ def dynamical_system(values: WheelsetParameters, with_absorber: bool) -> Dynamic
 
 def _rhs_by_address(states, m, n, parameters, rows, q, out):
     """`_rhs` as `tramdva.bifurcation.compiled` calls it."""
-    _fill(carray(out, m * n), _rhs(carray(states, (m, n)), carray(parameters, (rows, q))))
+    compiled.fill(carray(out, m * n), _rhs(carray(states, (m, n)), carray(parameters, (rows, q))))
 
 
 def _jacobian_by_address(states, m, n, parameters, rows, q, out):
     """`_jacobian` likewise."""
-    _fill(carray(out, m * n * n), _jacobian(carray(states, (m, n)), carray(parameters, (rows, q))))
-
-
-@inner_jit
-def _fill(out, values):
-    """Copy element by element: an assignment of arrays compiles seconds of error messages."""
-    flat = values.reshape(-1)
-    for k in range(out.size):
-        out[k] = flat[k]
+    compiled.fill(
+        carray(out, m * n * n), _jacobian(carray(states, (m, n)), carray(parameters, (rows, q)))
+    )
 
 
 @cache
