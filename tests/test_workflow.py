@@ -46,7 +46,9 @@ TABULAR = {figure for figure, kinds in TABLES.kinds.items() if "table" in kinds}
 FIGURES = [figure for figure in TABLES.figures if figure not in TABULAR]
 PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
 ABSORBERS, ORDERS, PARTS = ("none", "paper"), (34, 35), range(4)
-BOGIE = ["curving_equilibrium", "bogie_modes", "curve_entry"]
+BOGIE = ["basic_model", "preflight", "curving_equilibrium", "bogie_modes", "curve_entry"]
+# They hold what a run computes, which nearly every key of ranges and numerics says.
+GLANCE = {"preflight", "preflight_page", "preflight_chart"}
 ROUGH_BOGIE = ["bogie_linearisation", "tendency_maps", "bogie_designs", "robustness_sample"]
 WHEELS = [*ROUGH_BOGIE, "bogie_simulation", "wear", "evolution_tendency", "robust_tuning"]
 BASIC = [stage for stage in STAGES if stage not in {"contact_geometry", *BOGIE, *WHEELS}]
@@ -57,8 +59,9 @@ WITH_CRITICAL_CURVE = ["hopf_curves", "critical_hopf_curve", "cycle_amplitudes",
 # The rules that use a key themselves; the longest prefix counts.
 USERS = {
     "label": FIGURES,
-    "curve": BASIC,
+    "curve": [*BASIC, "basic_model"],
     "creep_force": BASIC,
+    **{f"creep_force.{name}": [*BASIC, "basic_model"] for name in ("F_N", "a", "b", "c_22")},
     "creep_force.A": [*BASIC, *BOGIE, *ROUGH_BOGIE],
     "creep_force.mu_0": [*BASIC, *BOGIE, *ROUGH_BOGIE, "design_sheet"],
     "creep_force.B": [
@@ -70,7 +73,8 @@ USERS = {
         "robustness_sample",
         "design_sheet",
     ],
-    "wheelset": BASIC,
+    "wheelset": [*BASIC, "basic_model"],
+    "wheelset.L": BASIC,
     "track": [*BOGIE, *ROUGH_BOGIE],
     "track.gravity": [*BOGIE, *ROUGH_BOGIE, "robust_tuning"],
     # How far a wheel can yaw, and where it is.
@@ -146,6 +150,12 @@ USERS = {
     "study.tendency_maps.d_T": ["tendency_maps", "robust_tuning"],
     "study.design_sheet": ["robust_tuning", "design_sheet"],
     "study.design_sheet.conditions": ["robustness_sample", "robust_tuning", "design_sheet"],
+    "study.design_sheet.conditions.radius.min": [
+        "contact_geometry",
+        "robustness_sample",
+        "robust_tuning",
+        "design_sheet",
+    ],
     "study.design_sheet.rubber": ["robustness_sample", "robust_tuning", "design_sheet"],
     "study.tendency_maps.design_band": [
         "evolution_tendency",
@@ -160,6 +170,7 @@ USERS = {
     "study.bogie_modes": ["bogie_modes"],
     "study.bogie_modes.B_max": ["bogie_modes", "design_sheet"],
     "study.bogie_modes.frequency": [
+        "basic_model",
         "curving_equilibrium",
         "bogie_modes",
         "robustness_sample",
@@ -172,6 +183,7 @@ USERS = {
     "numerics.bogie": [*BOGIE, *ROUGH_BOGIE],
     "numerics.wear": WORN,
     "wheelset.c_A": [
+        "basic_model",
         "stability_map",
         "cycle_amplitudes",
         "absorber_tuning",
@@ -179,12 +191,13 @@ USERS = {
         "wheelset_designs",
     ],
     "absorber": [
+        "basic_model",
         "absorber_tuning",
         "wheelset_designs",
         "fig02_stability_map",
         "fig05_critical_hopf_curve",
     ],
-    "absorber.m_T": [*WITH_VARIANTS, *WITH_CRITICAL_CURVE, "wheelset_designs"],
+    "absorber.m_T": ["basic_model", *WITH_VARIANTS, *WITH_CRITICAL_CURVE, "wheelset_designs"],
     "forced_excitation": [
         "absorber_tuning",
         "frequency_response",
@@ -225,8 +238,10 @@ def changed(tree: object) -> Iterator[tuple[str, object]]:
     """Each value changed in turn: its key and the smallest tree that holds the new value."""
     if isinstance(tree, dict):
         for name, value in tree.items():
-            # The absorbers sit at the end of the axle: it may only become longer.
-            bent = changed(value) if name != "half_length" else [("", 1.01 * value)]
+            # The absorbers sit at the end of the axle, the stubs between the wheels: both may
+            # only become longer.
+            longer = name in ("half_length", "half_distance")
+            bent = [("", 1.01 * value)] if longer else changed(value)
             for key, new in bent:
                 yield f"{name}.{key}".rstrip("."), {name: new}
     elif isinstance(tree, list) and isinstance(tree[0], dict):
@@ -341,9 +356,16 @@ def encoded(name: str) -> str:
     return base64.b64encode(name.encode()).decode()
 
 
+def merged(below: object, above: object) -> object:
+    if not (isinstance(below, dict) and isinstance(above, dict)):
+        return above
+    return below | {key: merged(below.get(key), value) for key, value in above.items()}
+
+
 def write_line(folder: Path, name: str, content: dict) -> None:
+    """A line that gives all values, so that nothing follows from its bogie."""
     paper = yaml.safe_load((folder / "config/lines/paper.yaml").read_text(encoding="utf-8"))
-    text = yaml.safe_dump({"label": paper["label"]} | content, allow_unicode=True)
+    text = yaml.safe_dump(merged(paper, content), allow_unicode=True)
     (folder / f"config/lines/{name}.yaml").write_text(text, encoding="utf-8")
 
 
@@ -368,9 +390,10 @@ def test_each_key_of_a_line_reruns_its_dependants(completed: Path, snakemake) ->
 
     assert plan.pop("same") == set()
     assert len(plan) > 50
-    assert {keys[line]: rules for line, rules in plan.items()} == {
-        key: concerned(key) for key in keys.values()
-    }
+    for line, rules in plan.items():
+        assert rules - GLANCE == concerned(keys[line]) - GLANCE, keys[line]
+        if "curving_equilibrium" in rules:
+            assert rules >= GLANCE, keys[line]
 
 
 @pytest.mark.parametrize("key", MEASURED)
@@ -428,9 +451,9 @@ def test_each_key_of_the_numerics_belongs_to_its_stage(completed: Path) -> None:
     for key, content in changes:
         other = load(completed / "config", overrides=content)
         differing = {r for r in before if used_values(other, "paper", r) != before[r]}
-        differing = {re.sub("_(none|paper|tuned)$", "", name) for name in differing}
+        differing = {re.sub("_(none|paper|tuned)$", "", name) for name in differing} - GLANCE
         prefixes = [p for p in USERS if key == p or key.startswith(f"{p}.")]
-        assert differing == set(USERS[max(prefixes, key=len)]), key
+        assert differing == set(USERS[max(prefixes, key=len)]) - GLANCE, key
 
 
 @pytest.mark.parametrize("stage", Numerics.model_fields)
@@ -443,7 +466,7 @@ def test_numerics_of_a_stage_rerun_its_dependants(completed: Path, snakemake, st
 
     plan = summary(snakemake, completed, "--configfile", str(completed / "other.yaml"))
 
-    assert plan == {"paper": concerned(f"numerics.{stage}")}
+    assert plan["paper"] - GLANCE == concerned(f"numerics.{stage}") - GLANCE
 
 
 def test_swapped_values_rerun(completed: Path, snakemake) -> None:
@@ -467,7 +490,7 @@ def test_notation_order_and_comments_rerun_nothing(completed: Path, snakemake) -
 
 
 def test_second_line_runs_alone(completed: Path, snakemake) -> None:
-    write_line(completed, "dresden", {"label": "Dresden", "curve": {"r_C": 30}})
+    write_line(completed, "dresden", {"label": "Dresden", "wheelset": {"c_A": 6.0e7}})
 
     plan = summary(snakemake, completed, "--config", "lines=[paper,dresden]")
 
