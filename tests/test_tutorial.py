@@ -118,5 +118,5 @@ def test_every_command_prints_what_the_tutorial_says(root: Path, checkout: Path)
         assert int(code) == (1 if action.text == REFUSED else 0), f"{action.text}\n{printed}"
         assert shows(printed, action.shown), f"$ {action.text}\n{printed}"
         checked += 1
-    assert checked == 12
+    assert checked == 13
     assert (checkout / "harbour.html").stat().st_size > 100_000
