@@ -166,9 +166,15 @@ def test_vibrates_by_itself_in_its_curve_and_its_absorber_ends_that(quick_run: P
     assert modes["critical_friction_decrease"][0] < 0.6 < modes["critical_friction_decrease"][1]
 
 
-def test_wheelset_of_the_basic_model_is_stable_by_little(quick_run: Path, loaded) -> None:
-    tuning, hopf = (read(quick_run, NAME, stage) for stage in ("absorber_tuning", "hopf_points"))
-    softest = hopf["c_A"][hopf["absorber"] == "none"].min()
+def test_basic_model_is_the_reduction_of_the_bogie(quick_run: Path, loaded) -> None:
+    """Both vibrate by themselves at about the same frequency; one description of a tram."""
+    basic, tuning = (read(quick_run, NAME, stage) for stage in ("basic_model", "absorber_tuning"))
+    modes = read(quick_run, NAME, "bogie_modes")
 
-    assert -0.5 < tuning["reference_growth_rate"] < 0.0
-    assert 1.0 < softest / loaded.lines[NAME].wheelset.c_A < 1.1
+    assert not basic["given"].any()
+    assert str(basic["status"]) == "derived"
+    assert basic["r_C"] == loaded.lines[NAME].track.radius + 0.75
+    assert tuning["reference_growth_rate"] > 0.0
+    assert tuning["reference_peak_frequency"] == pytest.approx(
+        modes["operating_frequency"][0], rel=0.02
+    )
