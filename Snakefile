@@ -9,7 +9,10 @@ STAGES = {
     "hopf_curves": (["basic_model"], "Hopf curves (figure 4)"),
     "critical_hopf_curve": (["hopf_curves", "basic_model"], "critical Hopf curve (figure 5)"),
     "cycle_amplitudes": (["critical_hopf_curve", "basic_model"], "cycle amplitudes (figure 6)"),
-    "absorber_tuning": (["critical_hopf_curve", "basic_model"], "designs of the absorber (Table 2)"),
+    "absorber_tuning": (
+        ["critical_hopf_curve", "basic_model"],
+        "designs of the absorber (Table 2)",
+    ),
     "frequency_response": (["absorber_tuning", "basic_model"], "frequency response (figure 7)"),
     "contact_geometry": ([], "contact tables of the profiles"),
     "basic_model": (["contact_geometry"], "basic model of the line"),

@@ -13,9 +13,9 @@ for stage, (reads, makes) in STAGES.items():
             f"logs/{{line}}/{stage}.log",
         benchmark:
             f"logs/{{line}}/{stage}.tsv"
-        threads: 1
         # What tells at once whether the line can run comes first.
         priority: stage in ("contact_geometry", "basic_model", "preflight")
+        threads: 1
         params:
             stage=stage,
             cfg=lambda w, stage=stage: values(w.line, stage),

@@ -164,7 +164,9 @@ class Reduction(NamedTuple):
     carried: float
 
 
-def without_own_creep(system: System, state: np.ndarray, jacobian: np.ndarray, wheel: str):
+def without_own_creep(
+    system: System, state: np.ndarray, jacobian: np.ndarray, wheel: str
+) -> Linearisation:
     """Linearisation in which one wheel has no creep force: only its normal force holds it.
 
     jacobian : (24, 44) of all contacts at the state
@@ -180,7 +182,12 @@ def without_own_creep(system: System, state: np.ndarray, jacobian: np.ndarray, w
 
 
 def reduced(
-    system: System, linear: Linearisation, wheel: str, radius: float, along: np.ndarray, limits
+    system: System,
+    linear: Linearisation,
+    wheel: str,
+    radius: float,
+    along: np.ndarray,
+    limits: tuple[float, float],
 ) -> Reduction:
     """Modes of a vehicle at the contact point of a wheel.
 

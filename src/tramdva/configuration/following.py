@@ -12,7 +12,7 @@ from what it gives, so that the tram computed is the tram described:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -162,7 +162,7 @@ class Description:
                 self._follow(path, round(min(max(share * value, low), high), 6))
 
 
-def bogie_mass(number) -> float | None:
+def bogie_mass(number: Callable[[str], float | None]) -> float | None:
     """Mass in kg of a bogie without its car body and absorbers; `number` gives a path's value."""
     half, middle = number("bogie.axle.half_length"), number("bogie.axle.middle_half_length")
     per_length = [number(f"bogie.axle.{part}.mass_per_length") for part in ("middle", "outer")]
