@@ -32,8 +32,10 @@ def draw(band: dict[str, np.ndarray], operating_B: float) -> Figure:
     figure = figures.canvas(figures.DOUBLE_COLUMN, 84)
     left, right = figure.subplots(1, 2, sharey=True)
     if not np.isfinite(band["growth_rate"][0]):
+        why = figures.status_words(band["status"][:1], "converged")
         for axes in (left, right):
-            figures.note(axes, "no equilibrium in the curve")
+            figures.nothing(axes, why)
+        return figure
     names = [
         f"{name} (not in the band)" if kind == "comparison" else str(name)
         for name, kind in zip(band["variation"], band["kind"], strict=True)
@@ -91,7 +93,7 @@ def draw_values(
 def _reason(band: dict[str, np.ndarray], row: int, largest: float) -> str:
     status = str(band["status"][row])
     if status != "converged":
-        return status.replace("_", " ")
+        return figures.status_words([status], "converged")
     return f"none up to {largest:g} s/m" if np.isfinite(largest) else ""
 
 
