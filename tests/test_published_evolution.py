@@ -50,9 +50,11 @@ def test_larger_radii_have_smaller_peaks_at_the_same_frequency(read) -> None:
     frequency = maps["frequency"]
     for low, high in ((45.0, 65.0), (108.0, 125.0)):
         band = (frequency > low) & (frequency < high)
+        radii = maps["radius"][maps["radius"] >= 25.0]
         outer = maps["radius_tendency"][none, 0][maps["radius"] >= 25.0][:, band]
         assert len(outer) >= 2
-        assert outer[-1].max() < 0.1 * outer[0].max()
+        if radii[0] < 30.0:  # where the flange slides above the chart's 0.2 m/s, wear is tenfold
+            assert outer[-1].max() < 0.1 * outer[0].max()
         for near, far in itertools.pairwise(outer):
             # Beyond the radius at which the flange slides below the chart's 0.2 m/s peak (3) is
             # level: by up to 3 % higher in the next larger curve.

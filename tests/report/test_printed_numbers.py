@@ -21,6 +21,7 @@ PLACED = {
     ("bogie_mode_shapes", "argsort"): "the two largest shares of the strain energy come first",
     ("fig02_stability_map", "argmax"): "a mark stands where its boundary ends",
     ("fig03_bifurcation_diagram", "argmin"): "curves and special points are joined to neighbours",
+    ("preflight_chart", "interp"): "contacts are marked on the profile that is drawn",
     ("sheet_verdicts", "argmin"): "the speed of the maps that is nearest to the line's, and told",
 }
 

@@ -139,19 +139,22 @@ def test_wider_curve_means_less_angle_of_attack(quick_run: Path, loaded) -> None
 
 
 def test_heavier_vehicle_loads_its_wheels_by_its_weight(quick_run: Path, loaded) -> None:
-    added = {"paper": 0.0, NAME: 13400.0 - 12200.0}
-    line = loaded.lines[NAME].bogie.axle
-    paper = loaded.lines["paper"].bogie.axle
-    middle, outer = 2 * line.middle_half_length, 2 * (line.half_length - line.middle_half_length)
-    added[NAME] += 2 * middle * (line.middle.mass_per_length - paper.middle.mass_per_length)
-    added[NAME] += 2 * outer * (line.outer.mass_per_length - paper.outer.mass_per_length)
-    added[NAME] += 4 * (150.0 - 124.0)
+    def mass(name: str) -> float:
+        """Mass in kg of the bogie with its share of the car, without absorbers."""
+        bogie = loaded.lines[name].bogie
+        axle, wheel = bogie.axle, bogie.stub.mass + bogie.wheel.hub.mass + bogie.wheel.rim.mass
+        outer = axle.half_length - axle.middle_half_length
+        beam = axle.middle_half_length * axle.middle.mass_per_length
+        beam += outer * axle.outer.mass_per_length
+        return bogie.car_body.mass + bogie.frame.mass + 4 * wheel + 4 * beam
 
     weight = [
         read(quick_run, name, "curving_equilibrium")["straight_wheel_load"][:, :].sum(axis=1)
         for name in ("paper", NAME)
     ]
-    np.testing.assert_allclose(weight[1][0] - weight[0][0], 9.81 * added[NAME], rtol=1e-6)
+    np.testing.assert_allclose(
+        weight[1][0] - weight[0][0], 9.81 * (mass(NAME) - mass("paper")), rtol=1e-6
+    )
     # A translating absorber weighs on the wheels: four of 40 kg.
     np.testing.assert_allclose(weight[1][1] - weight[1][0], 9.81 * 160.0, rtol=1e-6)
 

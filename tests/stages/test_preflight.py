@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 import yaml
 
-from tramdva.bogie import revolutions
 from tramdva.configuration.reading import load
 from tramdva.report import preflight as glance
 
@@ -116,10 +115,3 @@ def test_plan_counts_files_and_grows_with_them(root: Path) -> None:
     assert [part["jobs"] for part in orders] == [2 + 2 * 68 + 2 * 68 + 1, 2 + 2 * 3 + 2 * 3 + 1]
     total = [sum(part["seconds"] for part in row) for row in rows]
     assert total[1] < 0.2 * total[0]
-
-
-def test_growing_oscillations_are_not_simulated_and_drifts_do_not_count() -> None:
-    decaying = np.array([-3.0 + 300.0j, -3.0 - 300.0j, 1e-9, -1e-3 + 0.1j])
-
-    assert not revolutions.self_excited(decaying)
-    assert revolutions.self_excited(np.append(decaying, 0.2 + 340.0j))

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import strange_trams
+import yaml
 
 from tramdva import results
 from tramdva.configuration.reading import load_or_exit
@@ -32,22 +33,27 @@ def line(request, tmp_path_factory, root) -> dict[str, dict[str, np.ndarray]]:
     """Results of all stages of a line, saved and read again."""
     folder = tmp_path_factory.mktemp(request.param)
     (folder / "lines").mkdir()
-    for name in ("config.yaml", "lines/paper.yaml"):
-        (folder / name).write_text((root / "config" / name).read_text(encoding="utf-8"))
-    text = f"label: {request.param}\n{LINES[request.param]}\n"
-    (folder / f"lines/{request.param}.yaml").write_text(text)
+    (folder / "config.yaml").write_text((root / "config/config.yaml").read_text(encoding="utf-8"))
+    # In the place of the paper's line, whose basic model and bogie may be those of two trams.
+    paper = yaml.safe_load((root / "config/lines/paper.yaml").read_text(encoding="utf-8"))
+    for section, values in yaml.safe_load(LINES[request.param]).items():
+        paper[section] |= values
+    (folder / "lines/paper.yaml").write_text(yaml.safe_dump(paper))
     (folder / "coarse.yaml").write_text(COARSE)
     files = [root / "config/quick.yaml", folder / "coarse.yaml"]
-    return run_stages(load_or_exit(folder, files, {"lines": [request.param]}), folder)
+    configuration = load_or_exit(folder, files, {"lines": ["paper"]})
+    return run_stages(configuration, folder) | {"line": {"name": np.array(request.param)}}
 
 
 def run_stages(configuration, folder: Path) -> dict[str, dict[str, np.ndarray]]:
     name = configuration.run.lines[0]
-    found: dict[str, dict[str, np.ndarray]] = {"line": {"name": np.array(name)}}
+    found: dict[str, dict[str, np.ndarray]] = {}
     for stage, reads in strange_trams.BASIC_JOBS.items():
         cfg = used_values(configuration, name, stage)
         module = importlib.import_module(f"tramdva.stages.{stage}")
-        values = module.compute(cfg, **{other: found[other] for other in reads})
+        values = module.compute(
+            cfg, **{other: found[other] for other in reads if other != "basic_model"}
+        )
         path = folder / f"{stage}.nc"
         results.save(path, module.VARIABLES, values, parameters=cfg, code="")
         found[stage] = results.read(path)

@@ -56,10 +56,23 @@ class Origins:
             digest = hashlib.sha256(code_hash(self._scripts[name] / f"{name}.py").encode())
             for part in self._values(line, name):
                 digest.update(part.encode())
-            for read in self._reads[name]:
+            for read in self._read_by(line, name):
                 digest.update(self.of(line, read).encode())
             self._known[line, name] = digest.hexdigest()[:DIGITS]
         return self._known[line, name]
+
+    def _read_by(self, line: str, name: str) -> Iterator[str]:
+        """Stages that a stage or figure of this line reads: some read others for some lines only.
+
+        As `read_by` and the rule `bogie_linearisation` of the pipeline choose them.
+        """
+        absorbers = self._configuration.lines[line].study.evolution_tendency.absorbers
+        for read in self._reads[name]:
+            given = read == "basic_model" and not self._configuration.derived[line]
+            untuned = name == "bogie_linearisation" and read == "curving_equilibrium"
+            if (given and name != "preflight") or (untuned and "tuned" not in absorbers):
+                continue
+            yield read
 
     def resolution(self, line: str, name: str) -> str:
         """Return `full` where all numerics behind a file are those of `config.yaml`, else `coarse`.
