@@ -2,7 +2,7 @@
 
 The basic model is a chain: ground - (c_A, d_A) - m_A - (c_R, d_R) - m_R, and the creep force acts
 on m_R. Its receptance at m_R has two poles s_1, s_2 and a residue at each. The chain that stands
-for a vehicle has the same two poles and the same two modal masses
+for a vehicle has the same two poles and the same two modal masses::
 
     M_k = 1 / (2 |Im s_k| |residue of the receptance at s_k|)
 
@@ -155,8 +155,7 @@ class Reduction(NamedTuple):
     """A vehicle seen from a contact point.
 
     bending, wheel : second bending and the mode of the resilient wheel; None where there is none
-    carried : 1/kg or 1/(kg m^2), sum over the absorbers' places of one over the modal mass of
-        second bending there
+    carried : 1/kg or 1/(kg m^2), sum of one over the modal mass of second bending at absorbers
     """
 
     bending: PointMode | None
