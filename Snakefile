@@ -135,12 +135,14 @@ rule all:
 rule check:
     input:
         [files_of("preflight", line) for line in LINES],
+    log:
+        "logs/check.log",
     params:
         python=sys.executable,
     message:
         "the lines at a glance"
     shell:
-        "{params.python:q} -m tramdva.report.preflight {input:q}"
+        "{params.python:q} -m tramdva.report.preflight {input:q} 2> {log:q}"
 
 
 include: "workflow/rules/stages.smk"

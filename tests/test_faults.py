@@ -208,5 +208,5 @@ def test_no_rule_runs_a_shell(root: Path) -> None:
     assert sum("script:" in text for text in texts) == 3  # stages, jobs, figures
     # `check` prints files by names that are quoted and hold no wildcard of a file.
     shells = [words for text in texts for words in re.findall(r"shell:\s+(.*)", text)]
-    assert shells == ['"{params.python:q} -m tramdva.report.preflight {input:q}"']
+    assert shells == ['"{params.python:q} -m tramdva.report.preflight {input:q} 2> {log:q}"']
     assert not [text for text in texts if "    run:" in text]
