@@ -219,9 +219,12 @@ def read(path: str | Path) -> dict[str, np.ndarray]:
         Where the file is no complete result of this version of tramdva, or was changed since.
     """
     with _opened(path) as dataset:
-        _check_content(path, dataset)
+        stored = _checked(path, dataset)
         variables = _descriptions()[dataset.stage].variables
-        return {name: _plain(dataset[name], variable) for name, variable in variables.items()}
+        # Texts are checked as letters and read anew as words.
+        words = {n: np.asarray(dataset[n][...]) for n, v in variables.items() if v.kind == "text"}
+        arrays = stored | words
+        return {name: _plain(arrays[name], v) for name, v in variables.items()}
 
 
 def read_parameters(path: str | Path) -> dict[str, Any]:
@@ -244,7 +247,7 @@ def verify(path: str | Path) -> None:
         Where the file is no complete result of this version of tramdva, or was changed since.
     """
     with _opened(path) as dataset:
-        _check_content(path, dataset)
+        _checked(path, dataset)
 
 
 def load(path: str | Path) -> xarray.Dataset:
@@ -335,17 +338,19 @@ def _words(own: Mapping[str, str]) -> str:
     return json.dumps({name: own[name] for name in sorted(own) if name != CONTENT})
 
 
-def _check_content(path: str | Path, dataset: netCDF4.Dataset) -> None:
+def _checked(path: str | Path, dataset: netCDF4.Dataset) -> dict[str, np.ndarray]:
+    """Arrays as they are stored, read once, if they are those that were saved."""
     names = _descriptions()[dataset.stage].variables
     dataset.set_auto_chartostring(False)
-    stored = ((name, np.asarray(dataset[name][...])) for name in names)
+    stored = {name: np.asarray(dataset[name][...]) for name in names}
     own = {name: dataset.getncattr(name) for name in dataset.ncattrs()}
-    if own.get(CONTENT) != stamps.content_hash(stored, _words(own)):
+    if own.get(CONTENT) != stamps.content_hash(stored.items(), _words(own)):
         raise ValueError(
             f"{path}: its values are not those that were saved: it was changed afterwards; remove "
             "it and run the pipeline again"
         )
     dataset.set_auto_chartostring(True)
+    return stored
 
 
 def _write(
@@ -416,8 +421,7 @@ def _descriptions() -> dict[str, Stage]:
     return importlib.import_module("tramdva.variables.registry").STAGES
 
 
-def _plain(stored: netCDF4.Variable, variable: Variable) -> np.ndarray:
-    array = np.asarray(stored[...])
+def _plain(array: np.ndarray, variable: Variable) -> np.ndarray:
     if variable.kind == "truth":
         return array.astype(bool)
     if variable.kind == "flag":

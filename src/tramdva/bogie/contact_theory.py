@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.curving import STATUS, Equilibrium, System, near
+from tramdva.bogie.curving import Equilibrium, System, near
 from tramdva.bogie.modes import at_friction, critical_friction_decrease, critical_of
 from tramdva.bogie.tram import BogieLine, Running, contacts_of, systems, transferred
 from tramdva.contact import fastsim, patch
@@ -162,7 +162,7 @@ def growth(
         [critical_of(at_friction(system, found.state, b), limits).growth_rate for b in decrease]
     )
     onset = critical_friction_decrease(system, found.state, limits, decrease, rates)
-    return Growth(here.growth_rate, here.frequency, onset, STATUS[0])
+    return Growth(here.growth_rate, here.frequency, onset, found.status)
 
 
 class Band(NamedTuple):
