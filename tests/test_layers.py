@@ -26,7 +26,7 @@ MODEL = {
     "wear": {"contact"},
     "evolution": {"bogie", "wear", "contact"},
     "robustness": {"bogie", "evolution"},
-    "route": {"evolution"},
+    "route": {"evolution", "bogie", "wear", "contact"},
     "identification": {"wheelset", "bogie"},
 }
 AROUND = {

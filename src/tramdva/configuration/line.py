@@ -15,6 +15,7 @@ from tramdva.configuration.study import Study
 from tramdva.contact.parameters import ContactGeometry
 from tramdva.evolution.parameters import OutOfRoundness
 from tramdva.quantities import Label, Section, unique
+from tramdva.route.parameters import Route
 from tramdva.wear.parameters import Wear
 from tramdva.wheelset.parameters import (
     Absorber,
@@ -57,6 +58,7 @@ class Line(Section):
     contact_geometry: ContactGeometry
     out_of_roundness: OutOfRoundness
     wear: Wear
+    route: Route
     study: Study
 
     @model_validator(mode="after")

@@ -27,6 +27,7 @@ KEYS = {
     "wheel": ("contact_geometry", "wheel", "measured"),
     "rail": ("contact_geometry", "rail", "measured"),
     "out_of_roundness": ("out_of_roundness", "measured"),
+    "route": ("route", "file"),
 }
 
 
@@ -112,18 +113,21 @@ def _problems(line: Line, files: Mapping[str, MeasuredFile]) -> Iterator[str]:
     # NumPy is loaded only by runs that have such files.
     from tramdva.contact.measured_profile import check_pair, read_profile
     from tramdva.evolution.out_of_roundness import read_measurement
+    from tramdva.route.sections import read_sections
 
     shape, profiles = line.contact_geometry, {}
     for what, file in files.items():
         try:
             if what == "out_of_roundness":
                 read_measurement(file.path)
+            elif what == "route":
+                read_sections(file.path)
             else:
                 noise = getattr(shape, what).measured_noise
                 profiles[what] = file.path, read_profile(file.path, what, noise)
         except ValueError as error:
             yield str(error)
-    if profiles and set(profiles) == set(files) - {"out_of_roundness"}:
+    if profiles and set(profiles) == set(files) - {"out_of_roundness", "route"}:
         try:
             check_pair(*_pair(shape, profiles), shape.rail.lateral_position)
         except ValueError as error:

@@ -199,6 +199,19 @@ class RobustTuningNumerics(Section):
     map_points: Whole = quantity("grid points per axis", "-", 3, 500)
 
 
+class RouteResponseNumerics(Section):
+    """Orders and speeds on the route."""
+
+    orders: Orders
+    most_speed_points: Whole = quantity("speeds over the scatter at most", "-", 9, 1001)
+
+
+class PolygonGrowthNumerics(Section):
+    """Distances at which levels are told."""
+
+    distances: Whole = quantity("distances from zero to the horizon", "-", 2, 1001)
+
+
 class Numerics(Section):
     """Grids, orders and tolerances."""
 
@@ -223,3 +236,5 @@ class Numerics(Section):
     bogie_designs: BogieDesignsNumerics
     robustness_sample: RobustnessSampleNumerics
     robust_tuning: RobustTuningNumerics
+    route_response: RouteResponseNumerics
+    polygon_growth: PolygonGrowthNumerics

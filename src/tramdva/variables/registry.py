@@ -26,9 +26,11 @@ from tramdva.variables import (
     hopf_curves,
     hopf_points,
     limit_cycles,
+    polygon_growth,
     preflight,
     robust_tuning,
     robustness_sample,
+    route_response,
     stability_map,
     tendency_maps,
     wear,
@@ -63,5 +65,7 @@ STAGES: dict[str, Stage] = {
         bogie_designs,
         robustness_sample,
         robust_tuning,
+        route_response,
+        polygon_growth,
     )
 }

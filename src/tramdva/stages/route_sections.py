@@ -1,0 +1,74 @@
+"""From the section ``route`` of the configuration to sections, classes and cases of a route."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from tramdva.route.classes import Passage, RunningClass, classes_of, lap_length
+from tramdva.route.parameters import RouteSection
+from tramdva.route.sections import read_sections
+
+
+class Case(NamedTuple):
+    """A class as the vehicle meets it, with the end that leads.
+
+    running : place among the classes; turn, leading : of `classes.Passage`
+    """
+
+    running: int
+    turn: str
+    leading: str
+
+
+class Lap(NamedTuple):
+    """A lap of the route.
+
+    sections : of the way there; classes : that occur; passages : of the lap; length : m
+    """
+
+    sections: Sequence[RouteSection]
+    classes: list[RunningClass]
+    passages: list[Passage]
+    length: float
+
+    def cases(self) -> list[Case]:
+        """Cases in the order in which they are met first."""
+        return list(dict.fromkeys(map(case_of, self.passages)))
+
+    def shares(self, case: Case) -> list[float]:
+        """Share of the lap's length that is run in a case, by section."""
+        found = [0.0] * len(self.sections)
+        for passage in self.passages:
+            if case_of(passage) == case:
+                found[passage.section] += passage.length / self.length
+        return found
+
+
+def case_of(passage: Passage) -> Case:
+    """Case to which a passage belongs."""
+    return Case(passage.running, passage.turn, passage.leading)
+
+
+def lap_of(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> Lap:
+    """Lap of the route of a line.
+
+    Parameters
+    ----------
+    cfg : with the section ``route``
+    file_of : where a file lies that the configuration names: a table of sections
+    """
+    route = cfg["route"]
+    if route["file"]:
+        sections = read_sections(file_of(route["file"]))
+    else:
+        sections = tuple(RouteSection.model_validate(one) for one in route["sections"])
+    classes, passages = classes_of(sections, route["way"], route["ends"])
+    return Lap(sections, classes, passages, lap_length(passages))
+
+
+def case_name(case: Case, running: RunningClass) -> str:
+    """Name of a case for readers."""
+    where = "straight"
+    if running.curvature > 0.0:
+        where = f"{1.0 / running.curvature:g} m {case.turn}"
+    cant = f", cant {1e3 * running.cant:g} mm" if running.cant else ""
+    return f"{where}, {3.6 * running.speed:g} km/h{cant}, {case.leading} leads"
