@@ -29,7 +29,11 @@ STAGES = {
     "wheelset_designs": (["basic_model"], "the wheelset with any absorber"),
     "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
     "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
-    "route_response": (["contact_geometry", "robust_tuning"], "wear by own waves on the route"),
+    "route_tuning": (["contact_geometry"], "the absorber that buys the most kilometres"),
+    "route_response": (
+        ["contact_geometry", "robust_tuning", "route_tuning"],
+        "wear by own waves on the route",
+    ),
     "polygon_growth": (["route_response"], "growth of orders over kilometres"),
 }
 # Stages of many files each: per absorber, order or part of a sample (workflow/rules/jobs.smk).

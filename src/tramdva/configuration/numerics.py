@@ -206,6 +206,12 @@ class RouteResponseNumerics(Section):
     most_speed_points: Whole = quantity("speeds over the scatter at most", "-", 9, 1001)
 
 
+class RouteTuningNumerics(Section):
+    """Grid on which the search for the absorber of the route starts."""
+
+    c_T_points: Whole = quantity("stiffnesses in equal ratios", "-", 3, 200)
+
+
 class PolygonGrowthNumerics(Section):
     """Distances at which levels are told."""
 
@@ -237,4 +243,5 @@ class Numerics(Section):
     robustness_sample: RobustnessSampleNumerics
     robust_tuning: RobustTuningNumerics
     route_response: RouteResponseNumerics
+    route_tuning: RouteTuningNumerics
     polygon_growth: PolygonGrowthNumerics

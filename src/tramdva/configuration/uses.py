@@ -225,6 +225,17 @@ USES: dict[str, tuple[str, ...]] = {
         "numerics.wear",
         "numerics.route_response",
     ),
+    "route_tuning": (
+        *_ROUGH_BOGIE,
+        "bogie.absorber",
+        "creep_force.B",
+        "wear",
+        "route",
+        "measured.route",
+        "numerics.wear",
+        "numerics.route_response",
+        "numerics.route_tuning",
+    ),
     "polygon_growth": (
         "route.wear_law",
         "route.initial",

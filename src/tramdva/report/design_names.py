@@ -8,6 +8,7 @@ NAMED = {
     "paper": "line's absorber",
     "nominal": "nominal optimum",
     "robust": "robust optimum",
+    "route": "route's optimum",
 }
 # On the way: of the wheelset alone, of Table 2, or of a grid. Nobody should build them unasked.
 STEPS = {

@@ -13,8 +13,8 @@ number of frequencies: with zones z that wear and zones z' whose deviation excit
 
 a + s b the wear by mode m (`wear_rows`), c + s d the modal force of a deviation and its rate.
 
-A patch does not feel, nor wear, waves shorter than itself. Its force answers a deviation by the mean
-under its pressure, and what it removes it spreads over its length as it slides: both by the
+A patch does not feel, nor wear, waves shorter than itself. Its force answers a deviation by the
+mean under its pressure, and what it removes it spreads over its length as it slides: both by the
 Hertzian pressure, which over the length falls as 1 - (x/a)^2. Either mean leaves of a wave of n
 around the wheel the share
 
@@ -96,6 +96,44 @@ def spins(system: System, state: np.ndarray) -> np.ndarray:
     return system.contacts.places.spin_rate + local[:, SPIN_RATE]
 
 
+class WheelModes(NamedTuple):
+    """What a wheel's waves push and what its wear hears, by zones and modes.
+
+    push : (zones, 2, m), modal force by the deviation and by its rate
+    heard : (2, zones, m, k), wear of k laws by a mode, coefficients of s^0 and s^1
+    direct : (k, zones, 3), wear by the deviation itself, coefficients of s^0, s^1, s^2
+    lead : (zones,) rad, by which the contacts lie ahead; half_length : (zones,) rad
+    """
+
+    push: np.ndarray
+    heard: np.ndarray
+    direct: np.ndarray
+    lead: np.ndarray
+    half_length: np.ndarray
+
+
+def wheel_modes(
+    bogie: RoughBogie, wears: Sequence[WearSensitivity], wheel: int, spin: float
+) -> WheelModes:
+    """Modal forces of a wheel's waves, and its wear by modes; arguments as in `own_response`."""
+    zones = np.flatnonzero(bogie.touching[wheel])
+    m = bogie.eigenvalue.size
+    own = slice(wheel_forces.LOCALS * wheel, wheel_forces.LOCALS * (wheel + 1))
+    forces = slice(wheel_forces.WHEEL_FORCES * wheel, wheel_forces.WHEEL_FORCES * (wheel + 1))
+    output = (bogie.modal.output[:m] - 1j * bogie.modal.output[m:])[:, own]
+    forcing = bogie.modal.forcing[forces]
+    forcing = 0.5 * (forcing[:, :m] + 1j * forcing[:, m:])
+    per_metre = spin / bogie.rolling_speed[wheel]
+    parts = [_wear_by(bogie, wear, wheel, zones) for wear in wears]
+    return WheelModes(
+        np.moveaxis(bogie.sensitivity.force[wheel, zones], -1, 1) @ forcing,
+        np.stack([local @ output.T for local, _ in parts], axis=-1),
+        np.stack([wave for _, wave in parts]),
+        bogie.results[wheel, zones, patch.WHEEL_LEAD] * per_metre,
+        bogie.results[wheel, zones, patch.SEMI_AXIS_LONGITUDINAL] * per_metre,
+    )
+
+
 def own_response(
     bogie: RoughBogie, wears: Sequence[WearSensitivity], wheel: int, spin: float
 ) -> OwnResponse:
@@ -108,35 +146,22 @@ def own_response(
     wheel : place in `names.WHEELS`
     spin : rad/s, from `spins`
     """
-    zones = np.flatnonzero(bogie.touching[wheel])
-    m = bogie.eigenvalue.size
-    own = slice(wheel_forces.LOCALS * wheel, wheel_forces.LOCALS * (wheel + 1))
-    forces = slice(wheel_forces.WHEEL_FORCES * wheel, wheel_forces.WHEEL_FORCES * (wheel + 1))
-    output = (bogie.modal.output[:m] - 1j * bogie.modal.output[m:])[:, own]
-    forcing = bogie.modal.forcing[forces]
-    forcing = 0.5 * (forcing[:, :m] + 1j * forcing[:, m:])
-    # By the deviation and by its rate: force (zones, 2, 6), modal force (zones, 2, m).
-    push = np.moveaxis(bogie.sensitivity.force[wheel, zones], -1, 1) @ forcing
-    per_metre = spin / bogie.rolling_speed[wheel]
-    lead = bogie.results[wheel, zones, patch.WHEEL_LEAD] * per_metre
-    length = bogie.results[wheel, zones, patch.SEMI_AXIS_LONGITUDINAL] * per_metre
-    parts = [_wear_by(bogie, wear, wheel, zones) for wear in wears]
-    heard = np.stack([local @ output.T for local, _ in parts], axis=-1)  # s^p, zone, mode, law
-    own = np.stack([wave for _, wave in parts])  # law, zone, s^p
-    pairs = [(z, other) for z in range(zones.size) for other in range(zones.size)]
+    parts = wheel_modes(bogie, wears, wheel, spin)
+    zones, m = len(parts.lead), bogie.eigenvalue.size
+    pairs = [(z, other) for z in range(zones) for other in range(zones)]
     modal = np.zeros((len(pairs), 3, m, len(wears)), complex)
     direct = np.zeros((len(pairs), len(wears), 3))
     for place, (z, other) in enumerate(pairs):
-        (a, b), (c, d) = heard[:, z], push[other, :, :, None]
+        (a, b), (c, d) = parts.heard[:, z], parts.push[other, :, :, None]
         modal[place] = a * c, a * d + b * c, b * d
         if z == other:
-            direct[place] = own[:, z]
+            direct[place] = parts.direct[:, z]
     return OwnResponse(
         bogie.eigenvalue,
         modal,
         direct,
-        np.array([lead[other] - lead[z] for z, other in pairs]),
-        np.array([(length[other], length[z]) for z, other in pairs]),
+        np.array([parts.lead[other] - parts.lead[z] for z, other in pairs]),
+        np.array([(parts.half_length[other], parts.half_length[z]) for z, other in pairs]),
     )
 
 

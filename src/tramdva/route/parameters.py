@@ -76,9 +76,7 @@ class MeasuredWear(Section):
 class InitialSpectrum(Section):
     """Levels of the orders of a wheel that has just been turned."""
 
-    level_dB: Real = quantity(
-        "level of order 1, effective value re 1 um", "dB", -60, 60, "ASSUME"
-    )
+    level_dB: Real = quantity("level of order 1, effective value re 1 um", "dB", -60, 60, "ASSUME")
     slope_dB_per_octave: Real = quantity("change per doubled order", "dB", -30, 10, "ASSUME")
     seed: Annotated[int, Field(ge=0, le=2147483647, description="seed of the phases")]
 
@@ -91,6 +89,24 @@ class Turning(Section):
     )
     cut_mm: Real = quantity("radius that a turning takes", "mm", 0.05, 10, "ASSUME")
     usable_radius_mm: Real = quantity("radius from new to worn out", "mm", 1, 100, "ASSUME")
+
+
+class Material(Section):
+    """A material of the absorber's spring, and what cold and heat make of it."""
+
+    name: Label = Field(min_length=1, max_length=40, description="its name, at most 40 letters")
+    loss_factor_min: Real = quantity("smallest loss factor", "-", 0.005, 10, "ASSUME")
+    loss_factor_max: Real = quantity("largest loss factor", "-", 0.005, 10, "ASSUME")
+    stiffness_cold: Real = quantity("stiffness in the cold over its own", "-", 0.2, 20, "ASSUME")
+    stiffness_hot: Real = quantity("stiffness in the heat over its own", "-", 0.05, 5, "ASSUME")
+    loss_cold: Real = quantity("loss factor in the cold over its own", "-", 0.1, 10, "ASSUME")
+    loss_hot: Real = quantity("loss factor in the heat over its own", "-", 0.1, 10, "ASSUME")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.loss_factor_min >= self.loss_factor_max:
+            raise ValueError("loss_factor_min must be less than loss_factor_max")
+        return self
 
 
 class Route(Section):
@@ -115,4 +131,7 @@ class Route(Section):
     measured_wear: MeasuredWear
     initial: InitialSpectrum
     turning: Turning
+    materials: Annotated[tuple[Material, ...], Field(min_length=1, max_length=10)] = Field(
+        description="materials among which the absorber for the route is sought"
+    )
     horizon_km: Real = quantity("distance up to which levels are told", "km", 100, 1e6, "ASSUME")

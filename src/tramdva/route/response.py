@@ -213,8 +213,7 @@ def run_classes(
     middles = [at_mean_speed(line, one, designs, laws) for one in classes]
     steps = max(intervals(one.running.scatter, one.width, most_points) for one in middles)
     return [
-        over_speeds(one, speed_points(one.running.scatter, steps), designs, laws)
-        for one in middles
+        over_speeds(one, speed_points(one.running.scatter, steps), designs, laws) for one in middles
     ]
 
 
@@ -256,7 +255,7 @@ def own_wear(
             out[..., beside] = np.nan
             continue
         bogie = node.bogie[design]
-        wears = _of_surfaces(run.running, node, node.wear[design], flange_ratio)
+        wears = of_surfaces(run.running, node, node.wear[design], flange_ratio)
         for wheel in range(len(WHEELS)):
             own: OwnResponse = own_response(bogie, wears, wheel, float(node.spin[wheel]))
             turn = orders[:, None] * spin[None, beside, wheel]
@@ -265,13 +264,13 @@ def own_wear(
     return out
 
 
-def _of_surfaces(
+def of_surfaces(
     running: RunningClass,
     node: Node,
     wears: Sequence[WearSensitivity],
     flange_ratio: Sequence[float],
 ) -> list[WearSensitivity]:
-    """Wear of each law with flange contacts by their own measure."""
+    """Wear of each law with flange contacts by their own measure; arguments as in `own_wear`."""
     found = []
     for wear, ratio in zip(wears, flange_ratio, strict=True):
         share = np.where(node.flange, ratio * running.flange_wear_share, 1.0)

@@ -1,6 +1,6 @@
 """The stage `route_response`: wear of the wheels by their own waves on the route."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,24 +10,25 @@ from tramdva.bogie.parameters import BogieAbsorber
 from tramdva.bogie.tram import BogieLine
 from tramdva.bogie.tram import absorber as absorber_of
 from tramdva.evolution.tendency import Wearing
-from tramdva.route.classes import OWN_WHEELS, places_of_wheels
-from tramdva.route.response import SURFACES, ClassRun, mean_depth, own_wear, run_classes
+from tramdva.route.classes import OWN_WHEELS
+from tramdva.route.parameters import MeasuredWear
+from tramdva.route.response import SURFACES, own_wear, run_classes
+from tramdva.route.scaling import depths, revolutions, scales
 from tramdva.route.speeds import halved
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_sections import Case, Lap, case_name, lap_of
+from tramdva.stages.route_sections import Lap, case_name, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_response import VARIABLES
 from tramdva.wear.chart import METHODS
 
 __all__ = ["VARIABLES", "compute"]
 
-PER_1000_KM = 1e6  # m
-
 
 def compute(
     cfg: Mapping[str, Any],
     contact_geometry: Mapping[str, np.ndarray],
     robust_tuning: Mapping[str, np.ndarray],
+    route_tuning: Mapping[str, np.ndarray],
     file_of: Callable[[str], Any] = str,
 ) -> dict[str, np.ndarray]:
     """Wear response of every wheel of the vehicle to its own waves in each condition of the route.
@@ -35,7 +36,8 @@ def compute(
     Parameters
     ----------
     cfg : sections of the bogie, ``wear``, ``route``, ``numerics``
-    contact_geometry, robust_tuning : variables of these files; the latter names the designs
+    contact_geometry, robust_tuning, route_tuning : variables of these files; the last two name
+        the designs
     file_of : where a file lies that the configuration names: a table of sections
 
     Returns
@@ -43,7 +45,7 @@ def compute(
     Variables of ``route_response``.
     """
     line, lap = quiet_bogie_line(cfg, contact_geometry), lap_of(cfg, file_of)
-    designs, laws = designs_of(line, robust_tuning), laws_of(cfg)
+    designs, laws = designs_of(line, robust_tuning, route_tuning), laws_of(cfg)
     numerics = cfg["numerics"]
     wanted = numerics["orders"]
     orders = np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
@@ -51,24 +53,22 @@ def compute(
         line, lap.classes, designs, list(laws.values()), numerics["most_speed_points"]
     )
     cases = lap.cases()
+    of_case = [runs[case.running] for case in cases]
+    pairs = list(zip(of_case, cases, strict=True))
     frame = {
-        "speed": np.array([runs[case.running].speed for case in cases]),
-        "speed_weight": np.array([runs[case.running].points.weight for case in cases]),
-        "coarse_speed_weight": np.array([halved(runs[case.running].points) for case in cases]),
-        "revolutions_per_1000_km": np.array([_revolutions(lap, case, runs) for case in cases]),
-        "mean_wear_depth": np.stack(
-            [
-                [_of_wheels(mean_depth(runs[case.running], law), case, axis=1) for case in cases]
-                for law in range(len(laws))
-            ]
-        ),
+        "speed": np.array([run.speed for run in of_case]),
+        "speed_weight": np.array([run.points.weight for run in of_case]),
+        "coarse_speed_weight": np.array([halved(run.points) for run in of_case]),
+        "revolutions_per_1000_km": np.array([revolutions(*pair) for pair in pairs]),
+        "mean_wear_depth": np.stack([depths(*pair, len(laws)) for pair in pairs], axis=1),
     }
-    scale, ratio = _scales(cfg, frame)
+    measured = MeasuredWear.model_validate(cfg["route"]["measured_wear"])
+    scale, ratio = scales(runs, cases, len(laws), measured)
     answers = [np.array([own_wear(run, name, orders, ratio) for name in designs]) for run in runs]
     response = np.stack(
-        [_of_wheels(answers[case.running], case, axis=2) for case in cases], axis=2
-    )
-    response = np.moveaxis(response, 0, 2)  # law, class, absorber, wheel, order, speed
+        [answers[case.running][:, :, case.places] for case in cases], axis=2
+    )  # absorber, law, class, wheel, order, speed
+    response = np.moveaxis(response, 0, 2)
     return {
         "wear_law": np.array(list(laws)),
         **_cases(line, lap),
@@ -88,12 +88,15 @@ def compute(
 
 
 def designs_of(
-    line: BogieLine, robust_tuning: Mapping[str, np.ndarray]
+    line: BogieLine,
+    robust_tuning: Mapping[str, np.ndarray],
+    route_tuning: Mapping[str, np.ndarray],
 ) -> dict[str, BogieAbsorber | None]:
     """Absorbers by name: none, the line's and those that the searches found."""
     columns = (robust_tuning[name] for name in ("design", "I_T", "c_T", "d_T"))
+    of_route = ("route", *(float(route_tuning[name]) for name in ("I_T", "c_T", "d_T")))
     found: dict[str, BogieAbsorber | None] = {"none": None}
-    for name, inertia, c_T, d_T in zip(*columns, strict=True):
+    for name, inertia, c_T, d_T in [*zip(*columns, strict=True), of_route]:
         if np.isfinite(c_T):
             design = absorber_of(line, c_T, d_T)
             found[str(name)] = design.model_copy(update={"I_T": float(inertia)})
@@ -107,38 +110,6 @@ def laws_of(cfg: Mapping[str, Any]) -> dict[str, Wearing]:
         name: Wearing(chart._replace(method=number), grid, WHEELS)
         for name, number in METHODS.items()
     }
-
-
-def _of_wheels(values: np.ndarray, case: Case, axis: int) -> np.ndarray:
-    """Values of the places of the bogie, for the wheels that run there in a case."""
-    return np.take(values, places_of_wheels(case.turn, case.leading), axis=axis)
-
-
-def _revolutions(lap: Lap, case: Case, runs: Sequence[ClassRun]) -> np.ndarray:
-    """Revolutions (speeds, wheels) in 1000 km of the route."""
-    run = runs[case.running]
-    per_metre = run.spin() / (2.0 * np.pi * run.speed[:, None])
-    share = sum(lap.shares(case)) * run.points.weight[:, None]
-    return PER_1000_KM * share * _of_wheels(per_metre, case, axis=1)
-
-
-def _scales(
-    cfg: Mapping[str, Any], frame: Mapping[str, np.ndarray]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Measured wear over that of each law: scale of the tread, and flange over tread.
-
-    The mean of the wheels counts: over the life of a tram they change places. NaN where a class
-    of the route has no steady running.
-    """
-    revolutions, depth = frame["revolutions_per_1000_km"], frame["mean_wear_depth"]
-    of_law = np.einsum("cpw,lcswp->ls", revolutions, depth) / len(OWN_WHEELS)
-    measured = cfg["route"]["measured_wear"]
-    tread = 1e-4 * measured["tread_mm_per_10000_km"]  # m per 1000 km
-    scale = tread / of_law[:, 0]
-    if measured["flange_mm_per_10000_km"] is None:
-        return scale, np.ones_like(scale)
-    flange = 1e-4 * measured["flange_mm_per_10000_km"] / of_law[:, 1]
-    return scale, flange / scale
 
 
 def _cases(line: BogieLine, lap: Lap) -> dict[str, np.ndarray]:

@@ -5,18 +5,8 @@ from typing import Any, NamedTuple
 
 from tramdva.route.classes import Passage, RunningClass, classes_of, lap_length
 from tramdva.route.parameters import RouteSection
+from tramdva.route.scaling import Case
 from tramdva.route.sections import read_sections
-
-
-class Case(NamedTuple):
-    """A class as the vehicle meets it, with the end that leads.
-
-    running : place among the classes; turn, leading : of `classes.Passage`
-    """
-
-    running: int
-    turn: str
-    leading: str
 
 
 class Lap(NamedTuple):
@@ -32,20 +22,19 @@ class Lap(NamedTuple):
 
     def cases(self) -> list[Case]:
         """Cases in the order in which they are met first."""
-        return list(dict.fromkeys(map(case_of, self.passages)))
+        share: dict[tuple[int, str, str], float] = {}
+        for one in self.passages:
+            met = one.running, one.turn, one.leading
+            share[met] = share.get(met, 0.0) + one.length / self.length
+        return [Case(*met, part) for met, part in share.items()]
 
     def shares(self, case: Case) -> list[float]:
         """Share of the lap's length that is run in a case, by section."""
         found = [0.0] * len(self.sections)
-        for passage in self.passages:
-            if case_of(passage) == case:
-                found[passage.section] += passage.length / self.length
+        for one in self.passages:
+            if (one.running, one.turn, one.leading) == case[:3]:
+                found[one.section] += one.length / self.length
         return found
-
-
-def case_of(passage: Passage) -> Case:
-    """Case to which a passage belongs."""
-    return Case(passage.running, passage.turn, passage.leading)
 
 
 def lap_of(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> Lap:

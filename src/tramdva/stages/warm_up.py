@@ -8,6 +8,7 @@ from tramdva.bifurcation.limit_cycle import LimitCycleCurve
 from tramdva.bifurcation.system import DynamicalSystem
 from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
+from tramdva.route.any_absorber import add_absorbers
 from tramdva.wear.chart import CHART, WearChart
 from tramdva.wear.passages import ContactHistory, passages, wear_orders
 from tramdva.wheelset import model
@@ -25,6 +26,10 @@ def compile_kernels() -> None:
         contacts = _contacts(2)
         _bogie(contacts)
         _wear(contacts.law)
+    add_absorbers(
+        np.ones((1, 1)), np.ones((1, 1, 4), complex), np.ones((1, 1, 4), complex), 1.0, 1.0, 1.0,
+        np.zeros((1, 1)),
+    )  # fmt: skip
 
 
 def _wheelset() -> None:

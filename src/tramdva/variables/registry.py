@@ -31,6 +31,7 @@ from tramdva.variables import (
     robust_tuning,
     robustness_sample,
     route_response,
+    route_tuning,
     stability_map,
     tendency_maps,
     wear,
@@ -65,6 +66,7 @@ STAGES: dict[str, Stage] = {
         bogie_designs,
         robustness_sample,
         robust_tuning,
+        route_tuning,
         route_response,
         polygon_growth,
     )
