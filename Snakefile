@@ -110,6 +110,15 @@ FIGURES = {
         "Effect of the absorbers",
         TABLE,
     ),
+    "route_chart": (["polygon_growth"], "Kilometres", "Route", PICTURE),
+    "polygon_growth_chart": (["polygon_growth"], "Kilometres", "Orders over kilometres", PICTURE),
+    "kilometres_chart": (
+        ["polygon_growth", "route_tuning"],
+        "Kilometres",
+        "Kilometres between turnings",
+        PICTURE,
+    ),
+    "turned_wheels": (["polygon_growth"], "Kilometres", "Wheels when they are turned", PICTURE),
     "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
     "design_sheet": (
         [

@@ -1,12 +1,13 @@
 """The stage `polygon_growth`: growth of wheel orders over kilometres of the route."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from tramdva.evolution.out_of_roundness import level
 from tramdva.route.growth import (
+    ANGLES,
     DISTANCE_STATUS,
     distance_to_limit,
     grown,
@@ -15,13 +16,17 @@ from tramdva.route.growth import (
     wheel_life,
 )
 from tramdva.route.parameters import InitialSpectrum
+from tramdva.route.plan import plan
+from tramdva.stages.route_sections import lap_of
 from tramdva.variables.polygon_growth import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
 
 
 def compute(
-    cfg: Mapping[str, Any], route_response: Mapping[str, np.ndarray]
+    cfg: Mapping[str, Any],
+    route_response: Mapping[str, np.ndarray],
+    file_of: Callable[[str], Any] = str,
 ) -> dict[str, np.ndarray]:
     """Growth, levels and distances to the limit of the wheels of the vehicle.
 
@@ -29,6 +34,7 @@ def compute(
     ----------
     cfg : section ``route``, ``numerics.distances``
     route_response : variables of this file
+    file_of : where a file lies that the configuration names: a table of sections
 
     Returns
     -------
@@ -43,6 +49,8 @@ def compute(
     distance = np.linspace(0.0, route["horizon_km"], cfg["numerics"]["distances"])
     waves = np.array([grown(initial, one, distance) for one in growth.reshape(-1, orders.size)])
     waves = waves.reshape(*growth.shape[:-1], *waves.shape[1:])  # ..., distance, order
+    limits = _distances(cfg, given, growth, initial)
+    x, y, number = plan(lap_of(cfg, file_of).sections)
     return {
         **{
             name: given[name]
@@ -57,7 +65,12 @@ def compute(
         "initial_level": level(initial),
         "level": np.moveaxis(level(waves), -1, -2),
         "peak_to_peak": peak_to_peak(orders, waves),
-        **_distances(cfg, given, growth, initial),
+        **limits,
+        **_profiles(orders, initial, growth, limits["turning_distance"], route["horizon_km"]),
+        "distance_share": given["section_share"].sum(axis=1),
+        "section_x": x,
+        "section_y": y,
+        "plan_section": number.astype(float),
         "hindrance": np.array(_hindrances(given)),
         "shown_wear_law": np.array(route["wear_law"]),
     }  # fmt: skip
@@ -147,6 +160,20 @@ def _distances(
         "wheel_life": np.array(life).reshape(soonest.shape),
         "longest_absorber": np.array(longest),
         "laws_agree": len(set(longest)) == 1 and longest[0] != "",
+    }
+
+
+def _profiles(
+    orders: np.ndarray, initial: np.ndarray, growth: np.ndarray, turning: np.ndarray, horizon: float
+) -> dict[str, np.ndarray]:
+    """Radius deviations (law, absorber, wheel, angle) when the vehicle's wheels are turned."""
+    angle = np.linspace(0.0, 2.0 * np.pi, ANGLES + 1)
+    at = np.where(np.isfinite(turning), turning, horizon)
+    exponent = growth * (at / 1000.0)[..., None, None]
+    waves = initial * np.exp(np.minimum(exponent.real, 300.0) + 1j * exponent.imag)
+    return {
+        "angle": angle,
+        "turned_profile": (waves @ np.exp(1j * np.outer(orders, angle))).real,
     }
 
 

@@ -46,6 +46,16 @@ VARIABLES = Stage(
         ),
         "turning_status": flag("wear_law absorber", DISTANCE_STATUS, "of this distance"),
         "wheel_life": real("wear_law absorber", "km", "from new to worn out, turned in time"),
+        "angle": real("angle", "rad", "angle around the wheel"),
+        "turned_profile": real(
+            "wear_law absorber wheel angle",
+            "m",
+            "radius deviation when the first wheel is at the limit (or at the horizon)",
+        ),
+        "distance_share": real("section", "1", "share of the section in the distance"),
+        "section_x": real("plan_point", "m", "plan of the way there: along"),
+        "section_y": real("plan_point", "m", "plan of the way there: to the left"),
+        "plan_section": real("plan_point", "1", "number of the section there, from zero"),
         "hindrance": text("absorber", "where there is no steady answer, empty: nowhere"),
         "mean_wear_per_10000_km": real(
             "wear_law wheel surface", "mm", "mean loss of radius, as scaled"
