@@ -34,6 +34,10 @@ STAGES = {
         ["contact_geometry", "robust_tuning", "route_tuning"],
         "wear by own waves on the route",
     ),
+    "route_remedies": (
+        ["contact_geometry", "robust_tuning", "route_tuning"],
+        "what changes of the route buy",
+    ),
     "polygon_growth": (["route_response"], "growth of orders over kilometres"),
 }
 # Stages of many files each: per absorber, order or part of a sample (workflow/rules/jobs.smk).
@@ -118,6 +122,7 @@ FIGURES = {
         "Kilometres between turnings",
         PICTURE,
     ),
+    "remedies_chart": (["route_remedies"], "Kilometres", "What would help", PICTURE),
     "turned_wheels": (["polygon_growth"], "Kilometres", "Wheels when they are turned", PICTURE),
     "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
     "design_sheet": (

@@ -78,7 +78,7 @@ def draw_shares(axes: Axes, growth: dict[str, np.ndarray], share: np.ndarray) ->
     axes.set_yticks(place, [figures.verbatim(str(growth["section"][k])) for k in chosen])
     axes.invert_yaxis()
     axes.set_xlabel("share (%)")
-    axes.legend(fontsize="small")
+    axes.legend(fontsize="small", loc="lower left")
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ def draw(growth: dict[str, np.ndarray]) -> Figure:
     names = list(growth["absorber"])
     rows = [names.index(name) for name in SHOWN if name in names]
     wheels = growth["wheel"]
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 52 * len(rows))
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 8 + 46 * len(rows))
     panels = figure.subplots(
         len(rows), wheels.size, squeeze=False, subplot_kw={"projection": "polar"}
     )

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.route.classes import OWN_WHEELS, places_of_wheels
+from tramdva.route.classes import OWN_WHEELS, Passage, lap_length, places_of_wheels
 from tramdva.route.parameters import MeasuredWear
 from tramdva.route.response import ClassRun, mean_depth
 
@@ -35,6 +35,16 @@ class Case(NamedTuple):
     def places(self) -> list[int]:
         """Places (4,) in `names.WHEELS` of the vehicle's own wheels."""
         return places_of_wheels(self.turn, self.leading)
+
+
+def cases_of(passages: Sequence[Passage]) -> list[Case]:
+    """Cases of a lap in the order in which they are met first."""
+    length = lap_length(passages)
+    share: dict[tuple[int, str, str], float] = {}
+    for one in passages:
+        met = one.running, one.turn, one.leading
+        share[met] = share.get(met, 0.0) + one.length / length
+    return [Case(*met, part) for met, part in share.items()]
 
 
 class Scales(NamedTuple):

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from tramdva.route.classes import Passage, RunningClass, classes_of, lap_length
 from tramdva.route.parameters import RouteSection
-from tramdva.route.scaling import Case
+from tramdva.route.scaling import Case, cases_of
 from tramdva.route.sections import read_sections
 
 
@@ -22,11 +22,7 @@ class Lap(NamedTuple):
 
     def cases(self) -> list[Case]:
         """Cases in the order in which they are met first."""
-        share: dict[tuple[int, str, str], float] = {}
-        for one in self.passages:
-            met = one.running, one.turn, one.leading
-            share[met] = share.get(met, 0.0) + one.length / self.length
-        return [Case(*met, part) for met, part in share.items()]
+        return cases_of(self.passages)
 
     def shares(self, case: Case) -> list[float]:
         """Share of the lap's length that is run in a case, by section."""

@@ -30,6 +30,7 @@ from tramdva.variables import (
     preflight,
     robust_tuning,
     robustness_sample,
+    route_remedies,
     route_response,
     route_tuning,
     stability_map,
@@ -68,6 +69,7 @@ STAGES: dict[str, Stage] = {
         robust_tuning,
         route_tuning,
         route_response,
+        route_remedies,
         polygon_growth,
     )
 }
