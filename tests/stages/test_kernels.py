@@ -61,5 +61,5 @@ def test_interpreted_kernels_obey_the_known_laws(
     assert found["polach (0.0, 0.0, 0.0)"] == pytest.approx((0.0, 0.0, 0.0))
     assert found["polach (0.001, 0.0, 0.0)"][0] < 0.0  # against the creepage
     assert found["half_space (0.001, 0.0, 0.0)"][0] < 0.0
-    for method in ("chart", "smoothed", "constant"):
+    for method in ("chart", "smoothed", "constant", "energy"):
         assert (found[f"wear {method}"]["wear_depth"] >= 0.0).all()

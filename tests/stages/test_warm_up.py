@@ -22,6 +22,7 @@ def test_after_the_warm_up_the_stages_compile_nothing():
         "bogie.integration._run",
         "bogie.wheel_forces._sensitivity",
         "wear.passages._passages",
+        "wear.gradient._gradient",
     ):
         assert kernels["before"][f"tramdva.{name}"] > 0
 

@@ -22,6 +22,7 @@ from tramdva.configuration.uses import USES, used_values
 from tramdva.contact import (
     creep_force,
     creep_table,
+    fastsim,
     geometry,
     hertz,
     kalker,
@@ -30,7 +31,9 @@ from tramdva.contact import (
 )
 from tramdva.contact.tables import stored_tables
 from tramdva.stages import bogie_linearisation, bogie_simulation, contact_geometry, wear
+from tramdva.stages.wear_sections import chart_of
 from tramdva.wear.chart import METHODS
+from tramdva.wear.gradient import worn_area_gradient
 from tramdva.wheelset import model
 from tramdva.wheelset.cycles import limit_cycle_branch, orbit_extremes
 from tramdva.wheelset.hopf import solve_hopf_point
@@ -133,6 +136,10 @@ def of_the_bogie(given: Values) -> Values:
     for method in METHODS:
         values = {**cfg["wear"], "wear": {**cfg["wear"]["wear"], "method": method}}
         found[f"wear {method}"] = wear.compute(values, given["simulated"])
+        found[f"gradient {method}"] = worn_area_gradient(
+            np.array([4.5e-3, 3e-3, 36e3, 0.3, 0.01, 0.048, -1.2]), kalker.kalker_table(0.28),
+            8.2e10, fastsim.patch_grid(6, 6), 4.0, chart_of(values),
+        )[1]  # fmt: skip
     return found
 
 

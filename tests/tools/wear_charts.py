@@ -16,6 +16,11 @@ MIDDLE = {
     "velocity_width": 0.05,
     "pressure_width_share": 0.05,
     "coefficient_constant": 5e-4,
+    "energy_mild": 5.3e-9,
+    "energy_severe": 0.055,
+    "energy_limit": 77.2e6,
+    "energy_catastrophic": 61.9e-9,
+    "density": 7800.0,
 }
 
 

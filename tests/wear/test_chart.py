@@ -8,7 +8,7 @@ from wear_charts import chart_with
 
 from tramdva.contact import fastsim, kalker, traction_field
 from tramdva.wear.chart import wear_coefficient
-from tramdva.wear.passages import AREAS, archard_depth
+from tramdva.wear.passages import AREAS, passage_depth
 
 FLEXIBILITY = kalker.kalker_table(0.28)
 
@@ -25,14 +25,14 @@ def depth(field, speed=4.0, **changes):
     chart = chart_with(**changes)
     strips = np.zeros(field.area.shape[1])
     slip = np.empty(field.area.shape)
-    area = archard_depth(field, speed, chart, slip, strips, np.zeros(len(AREAS)))
+    area = passage_depth(field, speed, chart, slip, strips, np.zeros(len(AREAS)))
     return strips, area
 
 
 def region_shares(field, speed, chart):
     """Share of the patch in each region of the chart and in adhesion."""
     areas, strips = np.zeros(len(AREAS)), np.zeros(field.area.shape[1])
-    archard_depth(field, speed, chart, np.empty(field.area.shape), strips, areas)
+    passage_depth(field, speed, chart, np.empty(field.area.shape), strips, areas)
     return dict(zip(AREAS, areas / field.area.sum(), strict=True))
 
 

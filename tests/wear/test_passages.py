@@ -1,13 +1,14 @@
-"""Wear of histories, and its derivative by the second, complex implementation."""
+"""Wear of histories, its derivative, and its orders around the wheel."""
 
 import numpy as np
 import pytest
 from scipy.special import jv
 from wear_charts import chart_with
 
-from tramdva.contact import fastsim, kalker, patch
+from tramdva.contact import fastsim, patch
 from tramdva.wear.chart import WearChart, _share_above
-from tramdva.wear.gradient import worn_area, worn_area_gradient
+from tramdva.wear.gradient import worn_area_gradient
+from tramdva.wear.laws import LAWS
 from tramdva.wear.passages import ContactHistory, depth_around, passages, wear_orders
 
 LAW = patch.contact_law(0.35, 0.36, 0.4)
@@ -22,9 +23,9 @@ def area_of(state: np.ndarray, cells: int, chart: WearChart, speed: float = SPEE
     return float(passages(history, LAW.kalker_table, LAW.shear_modulus, grid, speed, chart).area[0])
 
 
-@pytest.mark.parametrize("method", ["chart", "smoothed", "constant"])
+@pytest.mark.parametrize("method", LAWS)
 @pytest.mark.parametrize("speed", [4.0, 9.0, 17.0])
-def test_two_implementations_give_the_same_wear_and_the_derivative(method, speed):
+def test_the_complex_step_gives_the_same_wear_and_the_derivative(method, speed):
     chart = chart_with(method=method)
     grid = fastsim.patch_grid(13, 13)
     value, gradient = worn_area_gradient(
@@ -122,10 +123,3 @@ def test_wear_of_several_revolutions_is_averaged():
     np.testing.assert_allclose(found[[0, 5]], [2e-9, 1e-9 * np.exp(0.4j)], atol=1e-20)
     depth = depth_around(found, np.array([0.0, 1.0]))
     np.testing.assert_allclose(depth, 1e-9 * (2.0 + np.cos([0.4, 5.4])), rtol=1e-9)
-
-
-def test_flexibilities_are_those_of_the_law():
-    flexibility = np.array(kalker.flexibilities(LAW.kalker_table, 4.5e-3, 3e-3, LAW.shear_modulus))
-    grid, chart = fastsim.patch_grid(10, 10), chart_with()
-    value = worn_area(STATE + 0j, flexibility + 0j, grid, SPEED, chart)
-    np.testing.assert_allclose(value.real, area_of(STATE, 10, chart), rtol=1e-12)

@@ -131,9 +131,26 @@ def flexibilities(table, semi_axis_longitudinal, semi_axis_lateral, shear_modulu
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     index, fraction = locate(table, -LOG_RATIO_LIMIT, LOG_RATIO_STEP, np.log(a / b))
+    return _flexibilities_at(table, index, fraction, a, b, shear_modulus)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _flexibilities_at(table, index, fraction, a, b, shear_modulus):
     over_modulus = a / shear_modulus
     return (
         8.0 / 3.0 * over_modulus * hermite(table, index, fraction, 0),
         8.0 / 3.0 * over_modulus * hermite(table, index, fraction, 1),
         0.25 * np.pi * over_modulus * np.sqrt(a / b) * hermite(table, index, fraction, 2),
     )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def complex_flexibilities(table, semi_axis_longitudinal, semi_axis_lateral, shear_modulus):
+    """Flexibilities of semi-axes that carry a derivative (`complex_step`), with its derivative."""
+    a, b = semi_axis_longitudinal, semi_axis_lateral
+    ratio = a / b
+    log_ratio = np.log(ratio.real)
+    index, fraction = locate(table, -LOG_RATIO_LIMIT, LOG_RATIO_STEP, log_ratio)
+    held = abs(log_ratio) >= LOG_RATIO_LIMIT
+    change = 0.0 if held else ratio.imag / ratio.real / LOG_RATIO_STEP
+    return _flexibilities_at(table, index, complex(fraction, change), a, b, shear_modulus)

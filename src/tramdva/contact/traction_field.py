@@ -5,6 +5,8 @@ make n + 1 intervals, the first from the leading edge to the first node, the las
 edge. Dissipated power equals force times creepage exactly: slip is scaled by one factor per patch
 (one under pure creepage; the three flexibilities make it 0.78 .. 1.02 under spin), tractions by
 another that replaces the trapezoidal by the Gaussian sum (1 + O(n^-2)). See `docs/contact.md`.
+
+All of it compiles for numbers and for complex ones that carry a derivative (`complex_step`).
 """
 
 from typing import NamedTuple
@@ -12,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from tramdva.contact.complex_step import quotient, root
 from tramdva.contact.fastsim import FAST, PatchGrid
 
 SMALLEST = 1e-300  # keeps the last interval, where the bound is zero, from 0 / 0
@@ -36,10 +39,10 @@ class TractionField(NamedTuple):
     pressure: np.ndarray
 
 
-def empty_field(grid: PatchGrid) -> TractionField:
-    """Arrays for `traction_field`, to be reused from call to call."""
+def empty_field(grid: PatchGrid, dtype: type = float) -> TractionField:
+    """Arrays of float or complex for `traction_field`, to be reused from call to call."""
     shape = (grid.step.size, grid.offset.size)
-    return TractionField(*(np.zeros(shape) for _ in TractionField._fields))
+    return TractionField(*(np.zeros(shape, dtype) for _ in TractionField._fields))
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
@@ -78,14 +81,16 @@ def _march(a, b, scale, creepages, flexibility, grid, field, state):
             trial_x = qx[j] - length * (nu_x / flexibility_x - y * rate_spin)
             trial_y = qy[j] - length * (rate_y + rate_spin * middle * half)
             capacity = bound * scale * grid.bound_across[j]
-            squared = trial_x * trial_x + trial_y * trial_y
-            factor = capacity / np.sqrt(max(squared, capacity * capacity, SMALLEST))
-            factor = factor if squared > capacity * capacity else 1.0
+            squared, limit = trial_x * trial_x + trial_y * trial_y, capacity * capacity
+            slides = squared.real > limit.real
+            larger = squared if slides else limit
+            larger = larger if larger.real > SMALLEST else larger + SMALLEST
+            factor = quotient(capacity, root(larger)) if slides else 1.0 + 0.0 * capacity
             new_x, new_y = trial_x * factor, trial_y * factor
             traction_x[j] = 0.5 * (qx[j] + new_x)
             traction_y[j] = 0.5 * (qy[j] + new_y)
-            slip_x[j] = flexibility_x * (new_x - trial_x) / length
-            slip_y[j] = flexibility_y * (new_y - trial_y) / length
+            slip_x[j] = quotient(flexibility_x * (new_x - trial_x), length)
+            slip_y[j] = quotient(flexibility_y * (new_y - trial_y), length)
             qx[j] = new_x
             qy[j] = new_y
             area = weight * grid.half_length[j] * grid.strip_weight[j]
@@ -122,7 +127,8 @@ def _cell_work(field, creepages):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _clear(grid, field):
-    _fill_geometry(0.0, 0.0, 0.0, grid, field)
+    zero = field.area.dtype.type(0.0)
+    _fill_geometry(zero, zero, zero, grid, field)
     for k in range(field.area.shape[0]):
         for j in range(field.area.shape[1]):
             field.slip_x[k, j] = 0.0
@@ -166,17 +172,17 @@ def traction_field(
     by how much the slip was scaled to dissipate the work of the tractions; 0 without slip).
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
-    if normal_force <= 0.0 or friction_coefficient <= 0.0:
+    if normal_force.real <= 0.0 or friction_coefficient.real <= 0.0:
         _clear(grid, field)
         return 0.0, 0.0, 0.0, 0.0
     _fill_geometry(a, b, 1.5 * normal_force / (np.pi * a * b), grid, field)
     creepages = (longitudinal_creepage, lateral_creepage, spin_creepage)
     scale = friction_coefficient * normal_force / (a * b)
-    state = np.zeros((2, grid.offset.size))
+    state = np.zeros((2, grid.offset.size), field.area.dtype)
     force_x, force_y, moment = _march(a, b, scale, creepages, flexibility, grid, field, state)
     cell_work = _cell_work(field, creepages)
     dissipated = _dissipation(field)
-    if dissipated <= 0.0 or cell_work <= 0.0:
+    if dissipated.real <= 0.0 or cell_work.real <= 0.0:
         return force_x, force_y, moment, 0.0
     slip_factor = cell_work / dissipated
     work = -(force_x * creepages[0] + force_y * creepages[1] + moment * creepages[2])

@@ -10,6 +10,7 @@ from tramdva.bogie import integration, wheel_forces
 from tramdva.contact import geometry, kalker, patch, profiles
 from tramdva.route.any_absorber import add_absorbers
 from tramdva.wear.chart import CHART, WearChart
+from tramdva.wear.gradient import worn_area_gradient
 from tramdva.wear.passages import ContactHistory, passages, wear_orders
 from tramdva.wheelset import model
 
@@ -85,6 +86,9 @@ def _wear(law: patch.ContactLaw) -> None:
     grid, numbers = law.grid, dict.fromkeys(WearChart._fields, 1.0)
     chart = WearChart(**numbers | {"method": CHART})
     moment = ContactHistory(*np.array([[5e-3, 5e-3, 4e4, 0.3, 0.0, 0.05, 1.0]]).T)
+    worn_area_gradient(
+        np.array(moment)[:, 0], law.kalker_table, law.shear_modulus, grid, 4.0, chart
+    )
     found = passages(moment, law.kalker_table, law.shear_modulus, grid, 4.0, chart)
     wear_orders(found.area, np.zeros(1), 1)
     kalker.flexibilities(law.kalker_table, 5e-3, 5e-3, law.shear_modulus)

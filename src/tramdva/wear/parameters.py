@@ -1,4 +1,4 @@
-"""Parameters of the KTH wear chart."""
+"""Parameters of the laws of wear."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from tramdva.quantities import Real, Section, quantity
 
 
 class Wear(Section):
-    """KTH wear chart."""
+    """Laws of wear."""
 
     method: str = Field(
-        pattern="^(chart|smoothed|constant)$",
-        description="chart (sharp steps), smoothed (smooth steps) or constant (one coefficient)",
+        pattern="^(chart|smoothed|constant|energy)$",
+        description="chart (sharp steps), smoothed (smooth steps), constant (one coefficient) or "
+        "energy (frictional work)",
     )
     hardness: Real = quantity("hardness of the softer body", "N/m^2", 5e8, 2e10, "ASSUME")
     coefficient_mild: Real = quantity("wear coefficient, mild", "-", 1e-7, 1, "ASSUME")
@@ -27,6 +28,15 @@ class Wear(Section):
     velocity_width: Real = quantity("half width of smooth steps", "m/s", 1e-4, 5, "ASSUME")
     pressure_width_share: Real = quantity("half width, share of H", "-", 1e-4, 5, "ASSUME")
     coefficient_constant: Real = quantity("the one coefficient", "-", 1e-7, 1, "ASSUME")
+    energy_mild: Real = quantity("mass worn per frictional work, mild", "kg/J", 1e-12, 1e-5, "USFD")
+    energy_severe: Real = quantity(
+        "mass worn per rolled metre and area, severe", "kg/m^3", 1e-5, 1e3, "USFD"
+    )
+    energy_limit: Real = quantity("catastrophic from this T-gamma/A", "N/m^2", 1e5, 1e10, "USFD")
+    energy_catastrophic: Real = quantity(
+        "mass worn per frictional work beyond it", "kg/J", 1e-12, 1e-5, "USFD"
+    )
+    density: Real = quantity("density of the wheel", "kg/m^3", 1000, 20000, "ASSUME")
 
     @model_validator(mode="after")
     def _steps_apart(self) -> Self:
@@ -34,4 +44,6 @@ class Wear(Section):
             raise ValueError(
                 "velocity_low + velocity_width must be at most velocity_high - velocity_width"
             )
+        if self.energy_severe > self.energy_mild * self.energy_limit:
+            raise ValueError("energy_severe must be at most energy_mild times energy_limit")
         return self

@@ -6,8 +6,18 @@ import numpy as np
 from numba import njit
 
 from tramdva.contact import kalker, traction_field
+from tramdva.contact.complex_step import quotient, root
 from tramdva.contact.fastsim import PatchGrid
-from tramdva.wear.chart import CHART, REGIONS, WearChart, wear_coefficient, wear_region
+from tramdva.wear.chart import CHART, ENERGY, REGIONS, WearChart, wear_coefficient, wear_region
+from tramdva.wear.energy import energy_wear_rate
+
+AREAS = (*REGIONS, "adhesion")
+ADHESION = len(REGIONS)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _size(x):
+    return x if x.real >= 0.0 else -x
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -15,16 +25,76 @@ def _changes(values, k, j, strips):
     """Change of a field (along, strips) over a cell along and across the patch, in one cell."""
     before, behind = max(k - 1, 0), min(k + 1, values.shape[0] - 1)
     left, right = max(j - 1, 0), min(j + 1, strips - 1)
-    along = abs(values[behind, j] - values[before, j]) / (behind - before)
-    return along, abs(values[k, right] - values[k, left]) / (right - left)
-
-
-AREAS = (*REGIONS, "adhesion")
-ADHESION = len(REGIONS)
+    along = quotient(_size(values[behind, j] - values[before, j]), float(behind - before))
+    return along, quotient(_size(values[k, right] - values[k, left]), float(right - left))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def archard_depth(field, rolling_speed, chart, slip, strip_depth, areas):
+def _real_strips(field):
+    """Number of strips but for the padding, which comes last; kernels see one type of it."""
+    strips = 0
+    for j in range(field.area.shape[1]):
+        strips += int(field.area[0, j].real > 0.0)
+    return strips
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _slip_of_cells(field, strips, slip):
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            squared = field.slip_x[k, j] * field.slip_x[k, j]
+            squared += field.slip_y[k, j] * field.slip_y[k, j]
+            slip[k, j] = root(squared) if squared.real > 0.0 else 0.0 * squared
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _areas_of_regions(field, slip, strips, speed, chart, areas):
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            region = ADHESION
+            if slip[k, j] != 0.0:
+                region = wear_region(field.pressure[k, j].real, speed * slip[k, j].real, chart)
+            areas[region] += field.area[k, j].real
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _depth_by_coefficient(field, slip, strips, speed, chart, strip_depth):
+    """Archard's law with the coefficient of the chart, smoothed or not, or a constant one."""
+    worn_area, none = 0.0, 0.0 * slip[0, 0]
+    sharp = chart.method == CHART
+    pressure_change = slip_change = (none, none)
+    for k in range(slip.shape[0]):
+        for j in range(strips):
+            if slip[k, j] == 0.0:
+                continue
+            pressure, velocity = field.pressure[k, j], speed * slip[k, j]
+            if sharp:
+                pressure_change = _changes(field.pressure, k, j, strips)
+                along, across = _changes(slip, k, j, strips)
+                slip_change = speed * along, speed * across
+            coefficient = wear_coefficient(pressure, velocity, chart, pressure_change, slip_change)
+            worn = coefficient * pressure * slip[k, j] * field.length_x[k, j]
+            depth = quotient(worn, chart.hardness)
+            strip_depth[j] += depth
+            worn_area += quotient(depth * field.area[k, j], field.length_x[k, j])
+    return worn_area
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _depth_by_energy(field, strips, chart, strip_depth):
+    worn_area = 0.0
+    for k in range(field.area.shape[0]):
+        for j in range(strips):
+            work = field.traction_x[k, j] * field.slip_x[k, j]
+            work += field.traction_y[k, j] * field.slip_y[k, j]
+            rate = energy_wear_rate(-work, chart)
+            strip_depth[j] += rate * field.length_x[k, j]
+            worn_area += rate * field.area[k, j]
+    return worn_area
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def passage_depth(field, rolling_speed, chart, slip, strip_depth, areas):
     """Wear depth of every strip for one passage of the patch, and where it comes from.
 
     Parameters
@@ -34,7 +104,8 @@ def archard_depth(field, rolling_speed, chart, slip, strip_depth, areas):
     chart : WearChart
     slip : (intervals, strips) array to work in
     strip_depth : (strips,) array, receives the depth in m
-    areas : (5,) array, receives the area in m^2 of the cells of each of `AREAS`
+    areas : (5,) array, receives the area in m^2 of the cells of each of `AREAS`: of the chart's
+        regions by any law
 
     Returns
     -------
@@ -43,31 +114,12 @@ def archard_depth(field, rolling_speed, chart, slip, strip_depth, areas):
     """
     strip_depth[:] = 0.0
     areas[:] = 0.0
-    strips = 0
-    for j in range(slip.shape[1]):
-        strips += field.area[0, j] > 0.0  # padding strips come last
-    for k in range(slip.shape[0]):
-        for j in range(strips):
-            slip[k, j] = np.sqrt(field.slip_x[k, j] ** 2 + field.slip_y[k, j] ** 2)
-    worn_area, speed = 0.0, abs(rolling_speed)
-    sharp = chart.method == CHART
-    pressure_change = slip_change = (0.0, 0.0)
-    for k in range(slip.shape[0]):
-        for j in range(strips):
-            if slip[k, j] == 0.0:
-                areas[ADHESION] += field.area[k, j]
-                continue
-            pressure, velocity = field.pressure[k, j], speed * slip[k, j]
-            areas[wear_region(pressure, velocity, chart)] += field.area[k, j]
-            if sharp:
-                pressure_change = _changes(field.pressure, k, j, strips)
-                along, across = _changes(slip, k, j, strips)
-                slip_change = speed * along, speed * across
-            coefficient = wear_coefficient(pressure, velocity, chart, pressure_change, slip_change)
-            depth = coefficient * pressure * slip[k, j] * field.length_x[k, j] / chart.hardness
-            strip_depth[j] += depth
-            worn_area += depth * field.area[k, j] / field.length_x[k, j]
-    return worn_area
+    strips, speed = _real_strips(field), abs(rolling_speed)
+    _slip_of_cells(field, strips, slip)
+    _areas_of_regions(field, slip, strips, speed, chart, areas)
+    if chart.method == ENERGY:
+        return _depth_by_energy(field, strips, chart, strip_depth)
+    return _depth_by_coefficient(field, slip, strips, speed, chart, strip_depth)
 
 
 class ContactHistory(NamedTuple):
@@ -106,7 +158,7 @@ def _passages(history, kalker_table, shear_modulus, grid, field, rolling_speed, 
             a, b, normal, history[3, i], history[4, i], history[5, i], history[6, i],
             flexibility, grid, field,
         )  # fmt: skip
-        area[i] = archard_depth(field, rolling_speed, chart, slip, depth, shares[i])
+        area[i] = passage_depth(field, rolling_speed, chart, slip, depth, shares[i])
         total = shares[i].sum()
         for j in range(shares.shape[1]):  # an assignment of arrays compiles seconds of messages
             shares[i, j] /= total
