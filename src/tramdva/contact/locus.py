@@ -32,8 +32,6 @@ REFERENCE_CURVATURE = 10.0
     MERIDIAN_CURVATURE,
 ) = range(7)  # fmt: skip
 COLUMNS = 7
-# Sums over the weights, beside those named above.
-TOTAL, OFFSET, SQUARE, STEEPNESS = 0, 3, 4, 5
 STRIDE = 8  # columns per table entry, padded to whole vector registers
 
 
@@ -80,28 +78,93 @@ def _rail_depth(first, spacing, depth, slope, position):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _gap_minimum(outward, downward, shift, first, spacing, depth, slope, gap):
-    """Fill the gap G at the wheel points that can matter, infinity elsewhere; index of its minimum.
+def _chord_depth(first, spacing, depth, slope, position):
+    """Value of `_rail_depth` but for the bend between two points of the grid, in half the time."""
+    scaled = (position - first) * (1.0 / spacing)
+    last = depth.size - 1
+    if scaled <= 0.0:
+        return depth[0] + slope[0] * spacing * scaled
+    if scaled >= last:
+        return depth[last] + slope[last] * spacing * (scaled - last)
+    i = int(scaled)
+    return depth[i] + (scaled - i) * (depth[i + 1] - depth[i])
 
-    Every COARSE-th point is looked at first; stretches whose gap is far above the lowest are left.
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gap_minimum(outward, downward, shift, first, spacing, depth, slope, reach, gap):
+    """Fill the gap G at the wheel points that can matter, infinity between them.
+
+    Every COARSE-th point is looked at first; a stretch whose gap at both ends is further above the
+    lowest than its `reach` (`_reaches`) is left out.
+
+    Returns
+    -------
+    Index of the lowest gap; first point and last but one that can matter.
     """
     count = outward.size
     lowest = np.inf
     for i in range(0, count, COARSE):
-        gap[i] = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
+        gap[i] = _chord_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
         lowest = min(lowest, gap[i])
-    best = 0
-    for start in range(0, count, COARSE):
+    best, begin, end, least = 0, count, 0, np.inf
+    for stretch in range(reach.size):
+        start = stretch * COARSE
         stop = min(start + COARSE, count)
-        after = gap[stop] if stop < count else gap[start]
-        if min(gap[start], after) > lowest + MARGIN:
-            gap[start:stop] = np.inf
+        limit = lowest + reach[stretch]
+        if gap[start] > limit and (stop == count or gap[stop] > limit):
+            if end > 0:
+                for i in range(start, stop):
+                    gap[i] = np.inf
             continue
+        begin, end = min(begin, start), stop
         for i in range(start, stop):
-            gap[i] = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
-            if gap[i] < gap[best]:
-                best = i
-    return best
+            own = _rail_depth(first, spacing, depth, slope, shift + outward[i]) - downward[i]
+            gap[i] = own
+            if own < least:
+                best, least = i, own
+    return best, begin, end
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _largest_bend(spacing, depth, slope):
+    """Largest magnitude in 1/m of the second derivative of a profile's cubics between its points.
+
+    Parameters
+    ----------
+    spacing : m; depth, slope : (n,) m and m/m on the grid
+    """
+    bend = 0.0
+    for i in range(depth.size - 1):
+        jump = 3.0 * (depth[i + 1] - depth[i]) / spacing
+        left, right = jump - 2.0 * slope[i] - slope[i + 1], slope[i] + 2.0 * slope[i + 1] - jump
+        bend = max(bend, abs(left), abs(right))
+    return 2.0 * bend / spacing
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _reaches(curve, bend, spacing, epsilon, reach):
+    """How far above the lowest gap both ends of a stretch may lie where its points still matter, m.
+
+    A point matters up to CUT epsilon / cos(delta) above the lowest gap. Inside a stretch the gap is
+    below its chord by no more than the wheel's curve is above its own, plus bend / 8 times the
+    square of the stretch, by which the rail can be below its chord; and the chords of
+    `_chord_depth` miss as much on the rail's grid. Where the curve runs backwards there is no such
+    bound, and MARGIN stands.
+    """
+    last = curve.shape[1] - 1
+    for stretch in range(reach.size):
+        start = stretch * COARSE
+        stop = min(start + COARSE, last)
+        width, rise = curve[0, stop] - curve[0, start], curve[1, stop] - curve[1, start]
+        needed, above, forward = 0.0, 0.0, start + COARSE <= last and width > 0.0
+        for i in range(start, stop + 1):
+            needed = max(needed, CUT * epsilon / max(curve[3, i], 1e-9))
+            ahead = curve[0, i] - curve[0, start]
+            forward = forward and 0.0 <= ahead <= width
+            if forward:
+                above = max(above, curve[1, i] - curve[1, start] - rise * ahead / width)
+        below = 0.125 * bend * (width * width + 2.0 * spacing * spacing)
+        reach[stretch] = min(MARGIN, 1.001 * (needed + above + below)) if forward else MARGIN
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -121,7 +184,7 @@ def arc_lengths(outward, downward, length, cosine):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
+def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, reach, gap, out):
     """Quasi-elastic contact of a wheel shifted by `shift` on a rail.
 
     Parameters
@@ -131,48 +194,49 @@ def contact_column(curve, wheel, shift, rail_grid, rail, epsilon, gap, out):
     shift : m, lateral position of the wheel's origin relative to the rail's, outwards
     rail_grid : (first, spacing) in m; rail : (2, k) depth and slope on it
     epsilon : m, gap scale of the averaging
-    gap : (n,) scratch array
+    reach : (stretches,) of `_reaches`; gap : (n,) scratch array
     out : (COLUMNS,) array, receives height of the wheel's origin at touch (downwards), contact
         position and depth on the wheel (its own axes) and on the rail, ln of the lateral
         curvature sum of the silhouette in 1/m, and the curvature of the wheel's profile in 1/m
     """
     first, spacing = rail_grid
-    best = _gap_minimum(curve[0], curve[1], shift, first, spacing, rail[0], rail[1], gap)
-    sums = np.zeros((2, COLUMNS))
+    best, begin, end = _gap_minimum(
+        curve[0], curve[1], shift, first, spacing, rail[0], rail[1], reach, gap
+    )
     lowest, centre, inverse = gap[best], curve[0, best], 1.0 / epsilon
-    for i in range(gap.size):
+    # Sums over the weights; those that end in 2 with the squared ones, of half the scale.
+    total = position = depth = offset = square = steepness = curvature = 0.0
+    total2 = steepness2 = 0.0
+    for i in range(begin, end):
         if gap[i] - lowest > MARGIN or curve[2, i] == 0.0:
             continue
         exponent = (gap[i] - lowest) * curve[3, i] * inverse
         if exponent > CUT:
             continue
         share = np.exp(-exponent)
-        offset = curve[0, i] - centre
-        for scale in range(2):
-            # The squared share belongs to half the scale.
-            weight = curve[2, i] * (share if scale == 0 else share * share)
-            sums[scale, TOTAL] += weight
-            sums[scale, WHEEL_POSITION] += weight * wheel[0, i]
-            sums[scale, WHEEL_DEPTH] += weight * wheel[1, i]
-            sums[scale, OFFSET] += weight * offset
-            sums[scale, SQUARE] += weight * offset * offset
-            sums[scale, STEEPNESS] += weight * curve[3, i]
-            sums[scale, MERIDIAN_CURVATURE] += weight * wheel[3, i]
-    for scale in range(2):
-        for k in range(1, COLUMNS):
-            sums[scale, k] /= sums[scale, TOTAL]
-    mean, cosine = sums[0], sums[0, STEEPNESS]
-    variance = max(mean[SQUARE] - mean[OFFSET] ** 2, spacing * spacing)
+        distance = curve[0, i] - centre
+        weight, weight2 = curve[2, i] * share, curve[2, i] * (share * share)
+        total += weight
+        position += weight * wheel[0, i]
+        depth += weight * wheel[1, i]
+        offset += weight * distance
+        square += weight * distance * distance
+        steepness += weight * curve[3, i]
+        curvature += weight * wheel[3, i]
+        total2 += weight2
+        steepness2 += weight2 * curve[3, i]
+    offset, cosine = offset / total, steepness / total
+    variance = max(square / total - offset**2, spacing * spacing)
     width = np.sqrt(2.0 * np.pi * epsilon / REFERENCE_CURVATURE)
-    soft = epsilon / cosine * np.log(sums[0, TOTAL] / width)
-    softer = epsilon / sums[1, STEEPNESS] * np.log(sums[1, TOTAL] / (width * np.sqrt(0.5)))
+    soft = epsilon / cosine * np.log(total / width)
+    softer = epsilon / (steepness2 / total2) * np.log(total2 / (width * np.sqrt(0.5)))
     out[HEIGHT] = lowest - (softer - soft)
-    out[WHEEL_POSITION] = mean[WHEEL_POSITION]
-    out[WHEEL_DEPTH] = mean[WHEEL_DEPTH]
-    out[RAIL_POSITION] = shift + centre + mean[OFFSET]
+    out[WHEEL_POSITION] = position / total
+    out[WHEEL_DEPTH] = depth / total
+    out[RAIL_POSITION] = shift + centre + offset
     out[RAIL_DEPTH] = _rail_depth(first, spacing, rail[0], rail[1], out[RAIL_POSITION])
     out[LOG_CURVATURE] = np.log(epsilon * cosine * cosine / variance)
-    out[MERIDIAN_CURVATURE] = mean[MERIDIAN_CURVATURE]
+    out[MERIDIAN_CURVATURE] = curvature / total
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -186,11 +250,14 @@ def fill_table(
     """
     curve = np.empty((4, wheel.shape[1]))
     gap = np.empty(wheel.shape[1])
+    reach = np.empty((wheel.shape[1] + COARSE - 1) // COARSE)
+    bend = _largest_bend(rail_grid[1], rail[0], rail[1])
     for k in range(rolls.size):
         for m in range(yaw_tangents_squared.size):
             tangent = yaw_tangents_squared[m]
             silhouette(wheel[0], wheel[1], wheel[2], radius, tangent, rolls[k], curve[0], curve[1])
             arc_lengths(curve[0], curve[1], curve[2], curve[3])
+            _reaches(curve, bend, rail_grid[1], epsilon, reach)
             for i in range(shifts.size):
                 contact_column(
                     curve,
@@ -199,6 +266,7 @@ def fill_table(
                     rail_grid,
                     rail,
                     epsilon,
+                    reach,
                     gap,
                     table[i, k, m],
                 )
