@@ -21,14 +21,20 @@ STAGES = {
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
     "growth_band": (["contact_geometry"], "how sure the growth rate is"),
     "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
-    "evolution_tendency": (["bogie_linearisation", "wear"], "evolution tendency (figure 10)"),
+    "evolution_tendency": (
+        ["bogie_linearisation", "wear", "basic_model"],
+        "evolution tendency (figure 10)",
+    ),
     "tendency_maps": (
-        ["contact_geometry", "bogie_linearisation"],
+        ["contact_geometry", "bogie_linearisation", "basic_model"],
         "tendency over speed and radius",
     ),
     "wheelset_designs": (["basic_model"], "the wheelset with any absorber"),
-    "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
-    "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
+    "bogie_designs": (["contact_geometry", "basic_model"], "the bogie with any absorber"),
+    "robust_tuning": (
+        ["robustness_sample", "basic_model"],
+        "nominal and robust optimum of the absorber",
+    ),
 }
 # Stages of many files each: per absorber, order or part of a sample (workflow/rules/jobs.smk).
 JOBS = {
@@ -38,7 +44,7 @@ JOBS = {
     ),
     "bogie_simulation": (["contact_geometry", "bogie_linearisation"], "simulation of orders"),
     "wear": (["bogie_simulation"], "wear by orders"),
-    "robustness_sample": (["contact_geometry"], "bogie under varied conditions"),
+    "robustness_sample": (["contact_geometry", "basic_model"], "bogie under varied conditions"),
 }
 PICTURE, TABLE = {"pdf": "pdf", "png": "png"}, {"table": "csv", "page": "html"}
 SHEET, PAGE = {"pdf": "pdf", "html": "html"}, {"page": "html"}
@@ -93,7 +99,7 @@ FIGURES = {
     ),
     "order_speed_chart": (["tendency_maps"], "Wheel wear", "Growing orders over speed", PICTURE),
     "tendency_design_chart": (
-        ["tendency_maps"],
+        ["tendency_maps", "basic_model"],
         "Wheel wear",
         "Absorbers against polygons",
         PICTURE,
@@ -104,7 +110,12 @@ FIGURES = {
         "Effect of the absorbers",
         TABLE,
     ),
-    "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
+    "explorer": (
+        ["wheelset_designs", "bogie_designs", "basic_model"],
+        "Explorer",
+        "Any absorber",
+        PAGE,
+    ),
     "design_sheet": (
         [
             "stability_map",
@@ -112,6 +123,7 @@ FIGURES = {
             "bogie_modes",
             "tendency_maps",
             "robust_tuning",
+            "basic_model",
         ],
         "Design sheet",
         "Design sheet",
