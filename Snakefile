@@ -21,21 +21,27 @@ STAGES = {
     "bogie_modes": (["contact_geometry", "curving_equilibrium"], "modes of the bogie"),
     "growth_band": (["contact_geometry"], "how sure the growth rate is"),
     "curve_entry": (["contact_geometry", "curving_equilibrium"], "ride into the curve (figure 9)"),
-    "evolution_tendency": (["bogie_linearisation", "wear"], "evolution tendency (figure 10)"),
+    "evolution_tendency": (
+        ["bogie_linearisation", "wear", "basic_model"],
+        "evolution tendency (figure 10)",
+    ),
     "tendency_maps": (
-        ["contact_geometry", "bogie_linearisation"],
+        ["contact_geometry", "bogie_linearisation", "basic_model"],
         "tendency over speed and radius",
     ),
     "wheelset_designs": (["basic_model"], "the wheelset with any absorber"),
-    "bogie_designs": (["contact_geometry"], "the bogie with any absorber"),
-    "robust_tuning": (["robustness_sample"], "nominal and robust optimum of the absorber"),
+    "bogie_designs": (["contact_geometry", "basic_model"], "the bogie with any absorber"),
+    "robust_tuning": (
+        ["robustness_sample", "basic_model"],
+        "nominal and robust optimum of the absorber",
+    ),
     "route_tuning": (["contact_geometry"], "the absorber that buys the most kilometres"),
     "route_response": (
         ["contact_geometry", "robust_tuning", "route_tuning"],
         "wear by own waves on the route",
     ),
     "route_remedies": (
-        ["contact_geometry", "robust_tuning", "route_tuning"],
+        ["contact_geometry", "robust_tuning", "route_tuning", "basic_model"],
         "what changes of the route buy",
     ),
     "polygon_growth": (["route_response"], "growth of orders over kilometres"),
@@ -48,7 +54,7 @@ JOBS = {
     ),
     "bogie_simulation": (["contact_geometry", "bogie_linearisation"], "simulation of orders"),
     "wear": (["bogie_simulation"], "wear by orders"),
-    "robustness_sample": (["contact_geometry"], "bogie under varied conditions"),
+    "robustness_sample": (["contact_geometry", "basic_model"], "bogie under varied conditions"),
 }
 PICTURE, TABLE = {"pdf": "pdf", "png": "png"}, {"table": "csv", "page": "html"}
 SHEET, PAGE = {"pdf": "pdf", "html": "html"}, {"page": "html"}
@@ -103,7 +109,7 @@ FIGURES = {
     ),
     "order_speed_chart": (["tendency_maps"], "Wheel wear", "Growing orders over speed", PICTURE),
     "tendency_design_chart": (
-        ["tendency_maps"],
+        ["tendency_maps", "basic_model"],
         "Wheel wear",
         "Absorbers against polygons",
         PICTURE,
@@ -124,7 +130,12 @@ FIGURES = {
     ),
     "remedies_chart": (["route_remedies"], "Kilometres", "What would help", PICTURE),
     "turned_wheels": (["polygon_growth"], "Kilometres", "Wheels when they are turned", PICTURE),
-    "explorer": (["wheelset_designs", "bogie_designs"], "Explorer", "Any absorber", PAGE),
+    "explorer": (
+        ["wheelset_designs", "bogie_designs", "basic_model"],
+        "Explorer",
+        "Any absorber",
+        PAGE,
+    ),
     "design_sheet": (
         [
             "stability_map",
@@ -132,6 +143,7 @@ FIGURES = {
             "bogie_modes",
             "tendency_maps",
             "robust_tuning",
+            "basic_model",
         ],
         "Design sheet",
         "Design sheet",

@@ -55,8 +55,10 @@ def main(
     tendency_maps: str,
     robust_tuning: str,
     curving_equilibrium: str,
+    basic_model: str | None = None,
 ) -> None:
     """Write the sheet as PDF and as a page."""
+    cfg = results.completed(cfg, results.read(basic_model) if basic_model else None)
     tuning = results.read(robust_tuning)
     content = design_sheet.sheet(
         cfg,

@@ -63,7 +63,15 @@ UNITS = {
 }
 
 
-def main(*, page: str, code: str, cfg: dict, wheelset_designs: str, bogie_designs: str) -> None:
+def main(
+    *,
+    page: str,
+    code: str,
+    cfg: dict,
+    wheelset_designs: str,
+    bogie_designs: str,
+    basic_model: str | None = None,
+) -> None:
     """Write the page.
 
     Parameters
@@ -76,7 +84,10 @@ def main(*, page: str, code: str, cfg: dict, wheelset_designs: str, bogie_design
         Label of the line, friction decreases, motion of the bogie's absorber, band of design.
     wheelset_designs, bogie_designs : str
         Result files.
+    basic_model : str, optional
+        Result file of the basic model where the band follows from the line's bogie.
     """
+    cfg = results.completed(cfg, results.read(basic_model) if basic_model else None)
     parts = [
         wheelset_part(cfg, results.read(wheelset_designs)),
         bogie_part(cfg, results.read(bogie_designs)),
@@ -249,7 +260,7 @@ def bogie_planes(cfg: dict, grid: Grid, found: dict, worst: np.ndarray) -> list[
         Shown(
             "bogie_plane",
             f"All designs: share left of the tendency in {band['min']:g} to {band['max']:g} Hz",
-            f"Largest value in the band, worse wheel · {marks} · grey: {grey}",
+            f"Largest value in the band on any wheel · {marks} · grey: {grey}",
             plane(grid, worst),
         ),
         Shown(

@@ -14,8 +14,11 @@ STYLE = Path(__file__).parent / "tramdva.mplstyle"
 LEVELS = np.arange(0.0, 1.01, 0.1)
 
 
-def main(*, pdf: str, png: str, code: str, cfg: dict, tendency_maps: str) -> None:
+def main(
+    *, pdf: str, png: str, code: str, cfg: dict, tendency_maps: str, basic_model: str | None = None
+) -> None:
     """Draw the chart from the maps of the tendency."""
+    cfg = results.completed(cfg, results.read(basic_model) if basic_model else None)
     with figures.style(STYLE):
         motion = cfg["bogie"]["absorber"]["motion"]
         figure = draw(results.read(tendency_maps), cfg["study"]["design_band"], motion)
@@ -29,7 +32,7 @@ def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rot
     charts = list(zip(words, maps["map_factor"], best, strict=True))
     if len(charts) > 1:
         compromise = maps["compromise_c_T"], maps["compromise_d_T"], maps["compromise_factor"]
-        charts.append(("worse of the wheels", maps["map_worst_factor"], compromise))
+        charts.append(("all wheels together", maps["map_worst_factor"], compromise))
     figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
     panels = figure.subplots(1, len(charts), squeeze=False, sharey=True)[0]
     unit, stiffness_label, damping_label = figures.ABSORBER_AXES[motion]

@@ -69,7 +69,7 @@ BUDGET = {
     "absorber_tuning": 15,
     "frequency_response": 7,
     "contact_geometry": 9,
-    "basic_model": 26,
+    "basic_model": 27,
     "preflight": 27,
     "growth_band": 30,
     "curving_equilibrium": 25,
@@ -79,11 +79,15 @@ BUDGET = {
     "bogie_simulation": 21,
     "wear": 11,
     "evolution_tendency": 28,
-    "tendency_maps": 39,
+    "tendency_maps": 40,
     "wheelset_designs": 7,
-    "bogie_designs": 39,
-    "robustness_sample": 39,
+    "bogie_designs": 41,
+    "robustness_sample": 40,
     "robust_tuning": 37,
+    "route_tuning": 60,
+    "route_response": 60,
+    "route_remedies": 60,
+    "polygon_growth": 60,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 

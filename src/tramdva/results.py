@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tramdva.running import job, stamps, supervision
+from tramdva.running.derived_values import completed, lacking
 from tramdva.variables.kinds import Stage, Variable
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def make(snakemake: Any, stage: ModuleType) -> None:
         cfg, reason = snakemake.params.cfg, ""
         if "basic_model" not in inspect.signature(stage.compute).parameters:
             basic = shared.pop("basic_model", None)
-            cfg, reason = completed(cfg, basic), "" if basic is None else str(basic["reason"])
+            cfg, reason = completed(cfg, basic), lacking(cfg, basic)
         for place, (order, output) in enumerate(zip(orders, snakemake.output, strict=True)):
             of_order = {name: read(paths[place]) for name, paths in own.items()}
             asked = _asked_for(stage, snakemake, order)
@@ -65,29 +66,6 @@ def make(snakemake: Any, stage: ModuleType) -> None:
                 output, stage.VARIABLES, values,
                 parameters=snakemake.params.cfg, code=snakemake.params.code, reason=reason,
             )  # fmt: skip
-
-
-def completed(cfg: Mapping[str, Any], basic_model: Mapping[str, Any] | None) -> Mapping[str, Any]:
-    """Return the values of a stage with what its line leaves to the bogie.
-
-    Parameters
-    ----------
-    cfg : mapping
-        Values of a stage; those that the line does not give are None.
-    basic_model : mapping or None
-        Variables of ``basic_model.nc``, whose names are the keys; None where nothing is left.
-    """
-    if basic_model is None:
-        return cfg
-    return {
-        section: {
-            key: float(basic_model[key]) if value is None else value
-            for key, value in values.items()
-        }
-        if isinstance(values, Mapping)
-        else values
-        for section, values in cfg.items()
-    }
 
 
 def nothing(stage: Stage) -> dict[str, np.ndarray]:

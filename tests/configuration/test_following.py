@@ -7,7 +7,7 @@ import pytest
 from tramdva.bogie.parameters import Bogie
 from tramdva.configuration import following
 from tramdva.configuration.reading import Configuration, ConfigurationError, load
-from tramdva.configuration.uses import used_values
+from tramdva.configuration.uses import stages_read, used_values
 
 ARTICULATED = "tram: {gauge_mm: 1000, axle_load_t: 8, speed_km_h: 18}\ntrack: {radius: 20}\n"
 
@@ -50,6 +50,29 @@ def test_what_is_inside_the_wheels_stays_there(described) -> None:
     assert line.axle.half_length < line.wheel.half_distance
     share = paper.axle.middle_half_length / paper.axle.half_length
     assert line.axle.middle_half_length / line.axle.half_length == pytest.approx(share, rel=1e-5)
+
+
+def test_bands_are_left_to_the_bogie_unless_given(described) -> None:
+    band = "study: {tendency_maps: {design_band: {min: 60, max: 80}}}\n"
+    free, own = described(""), described(band)
+    assert used_values(free, "x", "robust_tuning")["study"]["design_band"] is None
+    assert used_values(free, "x", "evolution_tendency")["study"]["peaks"] is None
+    own_band = used_values(own, "x", "robust_tuning")["study"]["design_band"]
+    assert own_band == {"min": 60.0, "max": 80.0}
+    # The file of the modes is read by what needs it, and by nothing else.
+    for stage, when in (("tendency_design_chart", (True, False)), ("robust_tuning", (True, True))):
+        reads = [stages_read(each, "x", stage, ["basic_model"]) for each in (free, own)]
+        assert [bool(read) for read in reads] == list(when), stage
+
+
+def test_rails_lean_as_the_tram_s_track_says(described) -> None:
+    lines = [described(t).lines["x"] for t in ("tram: {rail_inclination_1_to: 40}\n", "")]
+    leaning, upright = (line.contact_geometry.rail.inclination for line in lines)
+    assert (leaning, upright) == (pytest.approx(0.025), 0.0)
+    with pytest.raises(ConfigurationError, match="rail_inclination_1_to = 20 makes"):
+        described(
+            "tram: {rail_inclination_1_to: 20}\ncontact_geometry: {rail: {inclination: 0.025}}\n"
+        )
 
 
 def test_a_load_on_a_wheel_is_a_quarter_of_the_bogie(described) -> None:

@@ -35,6 +35,38 @@ def test_uic60_is_tangent_upright_and_36_mm_wide():
     assert_allclose(inclined.slope_at(-0.0177), -0.0177 / 0.3, rtol=2e-3)
 
 
+def test_an_inclined_rail_is_met_under_its_angle_elsewhere():
+    """Where the upright rail has the angle of the inclined one, an arc's radius is between."""
+    crown, angle = 0.3, 1 / 40
+    upright = profiles.grooved_rail(crown)
+    rail = profiles.inclined(upright, angle)
+    assert_allclose(np.arctan(rail.slope_at(0.0)), -angle, atol=1e-9)
+    # A wheel that stays, of slope 0 there, meets the arc `crown * sin(angle)` to the field side.
+    assert_allclose(rail.slope_at(crown * np.sin(angle)), 0.0, atol=1e-6)
+    # Points keep their distances from the origin.
+    for place in (-0.02, 0.01):
+        there = np.hypot(place, upright.depth_at(place))
+        turn = np.arctan2(upright.depth_at(place), place) - angle
+        assert_allclose(rail.depth_at(there * np.cos(turn)), there * np.sin(turn), atol=1e-9)
+    assert profiles.inclined(upright, 0.0) is upright
+
+
+def test_an_inclined_rail_turns_the_contact_of_a_coned_wheel():
+    """A conical tread touches a circular crown where their slopes are equal."""
+    cone, crown, angle = 0.05, 0.3, 1 / 40
+    rail = profiles.inclined(profiles.grooved_rail(crown), angle)
+    wheel = profiles.tram_wheel(conicity=cone)
+    # Both slope alike where the gap between tread and rail is least.
+    y = np.linspace(-0.015, 0.025, 40001)
+    touching = y[np.argmin(rail.depth_at(y) - wheel.depth_at(y))]
+    assert_allclose(rail.slope_at(touching), wheel.slope_at(touching), atol=1e-5)
+    assert_allclose(wheel.slope_at(touching), -cone, atol=1e-6)
+    upright = profiles.grooved_rail(crown)
+    before = y[np.argmin(upright.depth_at(y) - wheel.depth_at(y))]
+    # The centre of the crown's arc has moved by this, and with it every angle on the arc.
+    assert_allclose(touching - before, crown * np.sin(angle), atol=2e-5)
+
+
 def test_uic60_meets_the_published_points_of_the_manchester_profile(benchmark_rail, manchester):
     """Contact points printed by CONTACT lie on its rail profile."""
     right = manchester[manchester.side == "R"]

@@ -64,6 +64,8 @@ def made_up_bogie(wheels=WHEELS, c_T_points=7, stable_below=4e5):
         "none_quiet_self_excitation": "stable", "none_tendency": none, "status": "converged",
         "band_status": np.full(len(wheels), "found"),
         "band_factor": tendency[..., near].max(-1) / none[:, near].max(-1),
+        "band_tendency": tendency[..., near].max(-1),
+        "none_band_tendency": none[:, near].max(-1),
     }  # fmt: skip
     return values | bogie_designs.comparison(values)
 

@@ -3,7 +3,7 @@
 import itertools
 from functools import partial
 
-from tramdva.configuration.uses import used_values
+from tramdva.configuration.uses import stages_read, used_values
 from tramdva.record.origin import Origins
 from tramdva.running.code_hash import code_hash
 
@@ -14,9 +14,6 @@ origins = Origins(configuration, {"STAGES": STAGES, "JOBS": JOBS, "FIGURES": FIG
 ABSORBERS = {
     name: line.study.evolution_tendency.absorbers for name, line in configuration.lines.items()
 }
-# Keys of the basic model that come from the bogie; rules that read the reduction in any case.
-DERIVED = configuration.derived
-READ_BASIC_MODEL = {"preflight"}
 ORDERS = configuration.run.numerics.evolution_tendency.orders.listed()
 # Orders of a job stay together whatever the first and the last order of the run.
 GROUP = (
@@ -59,17 +56,17 @@ def span(batch):
     return f"orders_{batch[0]}_{batch[-1]}"
 
 
-def read_by(rule_name, stage, line):
-    """Name the files of a stage that a rule reads; none where the line's file says it all."""
-    if stage == "basic_model" and rule_name not in READ_BASIC_MODEL and not DERIVED[line]:
-        return []
-    return files_of(stage, line)
+def read_by(rule_name, stage, wildcards):
+    """Name the files of a stage that a rule reads; none where its line or job needs none."""
+    absorber = wildcards.get("absorber")
+    is_read = stages_read(configuration, wildcards.line, rule_name, [stage], absorber)
+    return files_of(stage, wildcards.line) if is_read else []
 
 
 def inputs(rule_name, stages):
     """Name the files that a rule reads by the stages that make them."""
     return {
-        stage: partial(lambda w, stage: read_by(rule_name, stage, w.line), stage=stage)
+        stage: partial(lambda w, stage: read_by(rule_name, stage, w), stage=stage)
         for stage in stages
     }
 

@@ -3,11 +3,7 @@
 
 rule bogie_linearisation:
     input:
-        contact_geometry="results/{line}/contact_geometry.nc",
-        curving_equilibrium=branch(
-            lambda w: w.absorber == "tuned",
-            then="results/{line}/curving_equilibrium.nc",
-        ),
+        **inputs("bogie_linearisation", JOBS["bogie_linearisation"][0]),
     output:
         PATTERNS["bogie_linearisation"],
     log:
@@ -117,7 +113,7 @@ rule wear:
 
 rule robustness_sample:
     input:
-        contact_geometry="results/{line}/contact_geometry.nc",
+        **inputs("robustness_sample", JOBS["robustness_sample"][0]),
     output:
         PATTERNS["robustness_sample"],
     log:

@@ -109,6 +109,20 @@ class Ports(NamedTuple):
     place_by_force: np.ndarray
 
 
+class Attachable(NamedTuple):
+    """What the bogie does without absorbers, and what to attach them to.
+
+    without_absorbers : (..., f, k) complex quantities; no mass and no weight of absorbers
+    place_without : (..., f, 4) complex motion of the places of the absorbers, likewise
+    ports : of these places with the weight of the absorbers on the axles, and with their mass
+        across their direction
+    """
+
+    without_absorbers: np.ndarray
+    place_without: np.ndarray
+    ports: Ports
+
+
 def ports(bare: Receptances, inertia: float, output: np.ndarray, direct: np.ndarray) -> Ports:
     """Reduce the receptances of a bogie without absorbers to the four places.
 

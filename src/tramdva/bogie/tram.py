@@ -17,7 +17,7 @@ from tramdva.bogie.curving import (
     system_on,
 )
 from tramdva.bogie.parameters import BareBogie, BogieAbsorber, Track
-from tramdva.bogie.vehicle import build_vehicle
+from tramdva.bogie.vehicle import Vehicle, build_vehicle
 from tramdva.contact import patch
 from tramdva.contact.parameters import ContactGeometry
 
@@ -83,16 +83,22 @@ def systems(line: BogieLine, design: BogieAbsorber | None, shares: Iterable[floa
         line.bogie, line.track.speed, line.cutoff_frequency, line.elements_per_section, design
     )
     contacts = contacts_of(line)
+    return [on_track(line, vehicle, contacts, share) for share in shares]
+
+
+def on_track(
+    line: BogieLine, vehicle: Vehicle, contacts: wheel_forces.Contacts, share: float
+) -> System:
+    """Put a vehicle on a track with a share (of 1) of the full curvature and cant."""
     full = track_line(line)
-    inside = full.transition + 10.0 * line.bogie.half_wheelbase
-    return [
-        system_on(
-            vehicle, contacts,
-            full._replace(curvature=share * full.curvature, cant=share * full.cant),
-            inside, line.bogie.half_wheelbase, line.track.gravity,
-        )
-        for share in shares
-    ]  # fmt: skip
+    return system_on(
+        vehicle,
+        contacts,
+        full._replace(curvature=share * full.curvature, cant=share * full.cant),
+        full.transition + 10.0 * line.bogie.half_wheelbase,
+        line.bogie.half_wheelbase,
+        line.track.gravity,
+    )
 
 
 class Running(NamedTuple):

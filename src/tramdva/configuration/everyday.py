@@ -21,6 +21,10 @@ class Tram(Section):
     axle_load_t: Real | None = quantity("mass on an axle of the bogie", "t", 2, 20)
     wheel_load_t: Real | None = quantity("mass on a wheel of the bogie", "t", 1, 10)
 
+    rail_inclination_1_to: Real | None = quantity(
+        "inclination of the rails, 40 for 1:40", "-", 17, 1000
+    )
+
     @model_validator(mode="after")
     def _one_load(self) -> Self:
         if self.axle_load_t is not None and self.wheel_load_t is not None:

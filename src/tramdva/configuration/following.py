@@ -7,7 +7,9 @@ from what it gives, so that the tram computed is the tram described:
   of the car;
 * the ranges of the maps over speed and radius are the paper's shares of the line's own values;
 * the basic model of figures 2 to 7 is derived from the bogie (stage `basic_model`), value by value,
-  where the file does not give the value.
+  where the file does not give the value;
+* the band for which absorbers are designed, and the bands of the peaks, are those of the modes that
+  are found (the same stage), where the file does not give them.
 """
 
 from __future__ import annotations
@@ -26,6 +28,8 @@ BASIC_MODEL = (
     *(f"wheelset.{name}" for name in ("m_A", "m_R", "c_A", "d_A", "c_R", "d_R")),
     *(f"absorber.{name}" for name in ("m_T", "c_T", "d_T")),
 )
+# Bands of frequencies that are put about the modes of the bogie where a line does not give them.
+BANDS = ("study.tendency_maps.design_band", "study.evolution_tendency.peaks")
 # Distances from the track centre that keep their distance from the wheel when the gauge differs.
 BESIDE_THE_WHEEL = (
     "bogie.axle.half_length",
@@ -44,8 +48,8 @@ SAME, SAME_LOAD = 0.02, 0.25
 
 
 def derived(own: Mapping[str, Any]) -> tuple[str, ...]:
-    """Keys of the basic model that a line's file leaves to its bogie."""
-    return tuple(key for key in BASIC_MODEL if value_at(own, key) is None)
+    """Keys that a line's file leaves to its bogie: of the basic model, and bands."""
+    return tuple(key for key in (*BASIC_MODEL, *BANDS) if value_at(own, key) is None)
 
 
 def value_at(tree: Any, path: str) -> Any:
@@ -78,6 +82,7 @@ class Description:
         self._gauge()
         self._speed()
         self._load()
+        self._rails()
         self._ranges()
 
     def _number(self, path: str) -> float | None:
@@ -147,6 +152,12 @@ class Description:
             for name in INERTIAS:
                 if (inertia := number_at(self.below, f"bogie.car_body.{name}")) is not None:
                     self._follow(f"bogie.car_body.{name}", inertia * (wanted - rest) / before)
+
+    def _rails(self) -> None:
+        if self.tram.rail_inclination_1_to is not None:
+            path, angle = "contact_geometry.rail.inclination", 1.0 / self.tram.rail_inclination_1_to
+            if not self._refuse("rail_inclination_1_to", path, angle):
+                self._follow(path, round(angle, 9))
 
     def _ranges(self) -> None:
         """Ranges of the maps where the line runs otherwise than the paper's."""

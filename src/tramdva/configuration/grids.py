@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from tramdva.configuration.line import Line
 from tramdva.configuration.numerics import Numerics
 
 FEWEST_IN_BAND = 3  # points; a peak needs both sides
+BAND = "study.tendency_maps.design_band"
 OF_THE_BAND = ("evolution_tendency", "tendency_maps", "bogie_designs")  # where it is looked for
 
 
-def problems(numerics: Numerics, lines: Mapping[str, Line]) -> Iterator[str]:
+def problems(
+    numerics: Numerics, lines: Mapping[str, Line], derived: Mapping[str, Collection[str]]
+) -> Iterator[str]:
     """Say, a line each, where the design band falls between the frequencies that are computed.
 
     Parameters
@@ -20,8 +23,12 @@ def problems(numerics: Numerics, lines: Mapping[str, Line]) -> Iterator[str]:
         Of the run.
     lines : mapping
         The lines by name.
+    derived : mapping
+        Keys by line that are left to the bogie; where the band is among them it is no one's fault.
     """
     for name, line in lines.items():
+        if BAND in derived[name]:
+            continue
         axis, band = line.study.evolution_tendency.frequency, line.study.tendency_maps.design_band
         for stage in OF_THE_BAND:
             points = getattr(numerics, stage).frequency_points

@@ -136,12 +136,15 @@ def _problems(line: Line, files: Mapping[str, MeasuredFile]) -> Iterator[str]:
 
 def _pair(shape: ContactGeometry, profiles: Mapping[str, Named]) -> Iterator[Named]:
     """Names and points in mm of wheel and rail, measured or made of their parameters."""
+    leans = shape.rail.inclination != 0.0
+    if leans or len(profiles) < 2:
+        from tramdva.contact import tables  # with Numba: only where it is needed
     for kind in ("wheel", "rail"):
         if kind in profiles:
-            yield profiles[kind]
+            name, points = profiles[kind]
+            turns = leans and kind == "rail"
+            yield name, tables.turned_in_track(points, shape.rail) if turns else points
             continue
-        from tramdva.contact import tables  # with Numba: only where it is needed
-
         made = {"wheel": tables.parametric_wheel, "rail": tables.parametric_rail}[kind]
         profile = made(getattr(shape, kind))
         yield f"the {kind} of the parameters", tables.points_in_mm(profile)

@@ -42,8 +42,8 @@ class Configuration:
     run: Run
     lines: Mapping[str, Line]
     measured: Mapping[str, Mapping[str, MeasuredFile]]
-    # By line the keys of the basic model that are derived from its bogie; the values that stand
-    # there in `lines` are the paper's and reach no stage.
+    # By line the keys that are derived from its bogie; the values that stand there in `lines` are
+    # the paper's and reach no stage.
     derived: Mapping[str, tuple[str, ...]]
     own_run: Run
 
@@ -89,7 +89,7 @@ def load(
     run = None if problems else _validate(Run, layers, problems)
     lines, measured, derived = _load_lines(folder, layers, problems)
     if run is not None:
-        problems += grids.problems(run.numerics, lines)
+        problems += grids.problems(run.numerics, lines, derived)
     if problems or run is None:
         raise ConfigurationError("\n".join(dict.fromkeys(map(messages.harmless, problems))))
     own_run = _validate(Run, layers[:1], []) or run

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
+from operator import getitem
 from typing import Any
 
 from tramdva.bogie.parameters import BareBogie, BogieAbsorber
@@ -118,6 +120,7 @@ USES: dict[str, tuple[str, ...]] = {
         *_BOGIE,
         *(path for path in BASIC_MODEL if path not in _BOGIE),
         "study.bogie_modes.frequency",
+        "tendency_axis",
     ),
     "preflight": (
         *_BOGIE,
@@ -322,7 +325,8 @@ def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
     dict
         Plain nested maps, lists, numbers and texts in SI units; the entries of `study` and
         `numerics` are those of this stage; `plan` is what a run computes; `measured` holds the
-        hashes of measured files. What the stage `basic_model` derives from the bogie is None.
+        hashes of measured files; `tendency_axis` are the ends of that axis of frequencies. What
+        the stage `basic_model` derives from the bogie is None.
     """
     everything = config.lines[line].model_dump(mode="json")
     measured = config.measured[line]
@@ -331,14 +335,62 @@ def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
     }
     everything["numerics"] = config.run.numerics.model_dump(mode="json")
     everything["plan"] = plan(config.run, config.lines[line])
+    axis = config.lines[line].study.evolution_tendency.frequency
+    everything["tendency_axis"] = axis.model_dump(mode="json")
     for path in config.derived[line]:
-        section, key = path.split(".")
-        everything[section][key] = None
+        *sections, key = path.split(".")
+        reduce(getitem, sections, everything)[key] = None
     values = _select(everything, [tuple(path.split(".")) for path in USES[name]])
     for section in ("study", "numerics"):
         if section in values:
             values[section] = {k: v for part in values[section].values() for k, v in part.items()}
     return values
+
+
+def is_left(config: Configuration, line: str, name: str) -> bool:
+    """Whether a stage or figure uses a value that its line leaves to the bogie.
+
+    It then reads the file of the stage `basic_model`, which completes its values.
+    """
+    return any(
+        path == used or path.startswith(f"{used}.")
+        for path in config.derived[line]
+        for used in USES.get(name, ())
+    )
+
+
+# The stage that computes what lines leave to the bogie; rules that read its file in any case.
+DERIVING, READ_IN_ANY_CASE = "basic_model", ("preflight",)
+
+
+def stages_read(
+    config: Configuration, line: str, name: str, reads: Sequence[str], absorber: str | None = None
+) -> list[str]:
+    """Return those of the stages that a rule may read which it reads for a line.
+
+    Parameters
+    ----------
+    config : Configuration
+        The whole configuration.
+    line : str
+        Name of the line.
+    name : str
+        Name of the stage or figure.
+    reads : sequence of str
+        Stages that it may read, as the Snakefile says.
+    absorber : str, optional
+        With which the job is; None for all jobs of the rule together.
+    """
+    absorbers = config.lines[line].study.evolution_tendency.absorbers
+
+    def is_read(stage: str) -> bool:
+        if stage == DERIVING and name not in READ_IN_ANY_CASE:
+            return is_left(config, line, name)
+        if name == "bogie_linearisation" and stage == "curving_equilibrium":
+            return "tuned" in (absorbers if absorber is None else (absorber,))
+        return True
+
+    return [stage for stage in reads if is_read(stage)]
 
 
 def _select(tree: Any, paths: Sequence[tuple[str, ...]]) -> Any:

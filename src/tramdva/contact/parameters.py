@@ -27,7 +27,7 @@ class WheelProfile(Section):
 
 
 class RailProfile(Section):
-    """Measured or parametric head of a rail; of a measured one only `lateral_position` counts."""
+    """Measured or parametric head of a rail; of a measured one the last two values count."""
 
     measured: str = measured_file("a measured profile, y from the top of the rail and z in mm")
     measured_noise: Real = quantity(
@@ -47,6 +47,13 @@ class RailProfile(Section):
         -0.02,
         0.02,
         "ASSUME",
+    )
+    inclination: Real = quantity(
+        "inclination of the rail to the track centre, beyond that of its profile",
+        "rad",
+        0,
+        0.06,
+        "grooved rails stand upright",
     )
 
 

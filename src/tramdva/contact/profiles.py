@@ -70,6 +70,33 @@ def resample(
     return Profile(name, kind, grid, spline(grid), spline(grid, 1))
 
 
+def turned(
+    position: np.ndarray, depth: np.ndarray, inclination: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a rail whose head leans to the track centre: its gauge side goes down.
+
+    Parameters
+    ----------
+    position, depth : in one unit; inclination : rad
+
+    Notes
+    -----
+    About the origin, so that the gauge stays: 14 mm below the top it changes by 0.3 mm per rail
+    at 1 in 40.
+    """
+    c, s = np.cos(inclination), np.sin(inclination)
+    return c * position + s * depth, -s * position + c * depth
+
+
+def inclined(rail: Profile, inclination: float) -> Profile:
+    """Rail profile that leans to the track centre by an angle in rad, about its origin."""
+    if inclination == 0.0:
+        return rail
+    position, depth = turned(rail.position, rail.depth, inclination)
+    slope = np.tan(np.arctan(rail.slope) - inclination)
+    return resample(f"{rail.name}, inclined", rail.kind, position, depth, slope)
+
+
 # Coefficients of the sections of S1002 (UIC 510-2), lengths in mm, ascending powers.
 _S1002_A = (1.364323640, -0.066666667)
 _S1002_B = (

@@ -31,18 +31,24 @@ def parametric_wheel(wheel: WheelProfile) -> profiles.Profile:
 
 
 def parametric_rail(rail: RailProfile) -> profiles.Profile:
-    """Rail profile of the parameters, m."""
-    return profiles.grooved_rail(
+    """Rail profile of the parameters as it lies in the track, m."""
+    upright = profiles.grooved_rail(
         rail.crown_radius,
         rail.corner_radius,
         rail.corner_start,
         field_half_width=rail.field_half_width,
     )
+    return profiles.inclined(upright, rail.inclination)
 
 
 def points_in_mm(profile: profiles.Profile) -> np.ndarray:
     """Points (n, 2) of a profile as files hold them: y outwards and z downwards in mm."""
     return np.column_stack([profile.position, profile.depth]) / profiles.MM
+
+
+def turned_in_track(points: np.ndarray, rail: RailProfile) -> np.ndarray:
+    """Points (n, 2) of a measured rail as they lie in the track; in one unit."""
+    return np.column_stack(profiles.turned(*points.T, rail.inclination))
 
 
 TABLE_FIELDS = ContactTable._fields

@@ -4,10 +4,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.absorber_ports import PortModes, Ports, port_modes, ports, receptances
-from tramdva.bogie.curving import Equilibrium, System
+from tramdva.bogie.absorber_ports import (
+    ABSORBERS,
+    Attachable,
+    PortModes,
+    Ports,
+    port_modes,
+    ports,
+    receptances,
+)
+from tramdva.bogie.absorber_weight import carrying
+from tramdva.bogie.conditions import State
 from tramdva.bogie.rough_vehicle import rough_bogie
-from tramdva.bogie.tram import BogieLine
 from tramdva.evolution.tendency import Wearing, evolution_tendency, wear_rows, wear_sensitivity
 
 
@@ -32,57 +40,60 @@ class AnyAbsorber(NamedTuple):
         return evolution_tendency(self.modes.response(self.inertia, c_T, d_T))
 
 
-class WearPorts(NamedTuple):
-    """The bogie without absorbers as they see it, for the wear of the wheels out of round.
-
-    without_absorbers : (f, wheels) complex wear response
-    ports : of the places of the absorbers, whose mass across their direction loads the axle already
-    """
-
-    without_absorbers: np.ndarray
-    ports: Ports
-
-
-def wear_ports(
-    wearing: Wearing,
-    line: BogieLine,
-    system: System,
-    equilibrium: Equilibrium,
-    frequency: np.ndarray,
-) -> WearPorts:
-    """Wear and motion of the places of the absorbers, by waves and by forces of the absorbers.
+def wear_ports(wearing: Wearing, bare: State, laden: State, frequency: np.ndarray) -> Attachable:
+    """Wear of the wheels out of round, to which absorbers can be attached.
 
     Parameters
     ----------
     wearing : Wearing
-    line : BogieLine, for places and inertia of the absorbers
-    system, equilibrium : of the vehicle without absorbers
+    bare : vehicle without absorbers in its equilibrium; its line says their places and inertia
+    laden : the same under the weight of the absorbers, as from `carrying`
     frequency : (f,) Hz
     """
+    alone, place, found = _answers(wearing, bare, frequency)
+    if laden is not bare:
+        _, _, found = _answers(wearing, laden, frequency)
+    return Attachable(alone, place, found)
+
+
+def _answers(
+    wearing: Wearing, state: State, frequency: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, Ports]:
+    """Wear response and motion of the places alone, and ports, of a vehicle without absorbers."""
+    system, equilibrium = state.system, state.equilibrium
     bogie, wheels = rough_bogie(system, equilibrium), wearing.places
     rows = wear_rows(
         bogie,
         wear_sensitivity(bogie, system.contacts.law, wearing),
         frequency,
         system.contacts.places.speed,
-        line.bogie.wheel.radius,
+        state.line.bogie.wheel.radius,
         wearing.wheels,
     )
-    absorber, turn = line.bogie.absorber, 2.0 * np.pi * frequency
-    bare = receptances(system, equilibrium, bogie, absorber, turn, rows.source)
+    absorber, turn = state.line.bogie.absorber, 2.0 * np.pi * frequency
+    seen = receptances(system, equilibrium, bogie, absorber, turn, rows.source)
     output, direct = rows.output(wheels), rows.direct[:, wheels]
-    alone = np.einsum("fko,fo->fk", output, bare.local_by_wave) + direct
-    return WearPorts(alone, ports(bare, absorber.I_T, output, direct))
+    alone = np.einsum("fko,fo->fk", output, seen.local_by_wave) + direct
+    return alone, seen.place_by_wave[:, :ABSORBERS], ports(seen, absorber.I_T, output, direct)
 
 
-def any_absorber(
-    wearing: Wearing,
-    line: BogieLine,
-    system: System,
-    equilibrium: Equilibrium,
-    frequency: np.ndarray,
-) -> AnyAbsorber:
-    """Prepare the tendency with any absorbers; arguments as in `wear_ports`."""
-    found = wear_ports(wearing, line, system, equilibrium, frequency)
+def any_absorber(wearing: Wearing, bare: State, frequency: np.ndarray) -> AnyAbsorber:
+    """Prepare the tendency with any absorbers.
+
+    Parameters
+    ----------
+    wearing : Wearing
+    bare : vehicle without absorbers in its equilibrium; its line says their places and inertia
+    frequency : (f,) Hz
+
+    Notes
+    -----
+    Where their weight leaves no steady running, the tendency with absorbers is not a number.
+    """
+    laden = carrying(bare)
+    runs = laden.equilibrium.status == "converged"
+    found = wear_ports(wearing, bare, laden if runs else bare, frequency)
     modes = port_modes(found.ports)
-    return AnyAbsorber(found.without_absorbers, modes, line.bogie.absorber.I_T)
+    if not runs:
+        modes = PortModes(*(np.full_like(values, np.nan) for values in modes))
+    return AnyAbsorber(found.without_absorbers, modes, bare.line.bogie.absorber.I_T)

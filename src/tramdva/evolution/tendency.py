@@ -234,10 +234,56 @@ def highest_peak(frequency: np.ndarray, tendency: np.ndarray) -> tuple[float, fl
     k = highest_top(tendency)
     if k is None:
         return np.nan, np.nan
-    a, b, c = tendency[k - 1 : k + 2]
-    shift = 0.5 * (a - c) / (a - 2.0 * b + c)
-    step = frequency[k + 1] - frequency[k]
-    return float(frequency[k] + shift * step), float(b - 0.25 * (a - c) * shift)
+    before, after = np.diff(frequency[k - 1 : k + 2])
+    rise, fall = np.diff(tendency[k - 1 : k + 2]) / (before, after)
+    bend = (fall - rise) / (before + after)
+    slope = rise + bend * before  # at the highest point
+    shift = np.clip(-0.5 * slope / bend, -before, after)
+    return float(frequency[k] + shift), float(tendency[k] + (slope + bend * shift) * shift)
+
+
+# Axis of frequencies: refined about this many modes, at these distances in their growth rates.
+_REFINED_MODES = 6
+_DISTANCES = np.array([0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5])
+
+
+def finer_near_modes(axis: np.ndarray, eigenvalue: np.ndarray) -> np.ndarray:
+    """Frequencies in Hz, rising: those of an axis and some about the modes of least damping.
+
+    Parameters
+    ----------
+    axis : (f,) Hz, rising
+    eigenvalue : (k,) complex, 1/s, of the vehicle
+
+    Returns
+    -------
+    As many for any eigenvalues: the last of the axis stands for what is missing. A peak of little
+    damping is narrower than the distance of frequencies on an axis of an even step.
+    """
+    frequency = eigenvalue.imag / (2.0 * np.pi)
+    inside = np.flatnonzero((frequency > axis[0]) & (frequency < axis[-1]))
+    least = inside[np.argsort(np.abs(eigenvalue.real[inside]), kind="stable")[:_REFINED_MODES]]
+    distance = np.concatenate([-_DISTANCES[:0:-1], _DISTANCES])
+    near = frequency[least, None] + np.abs(eigenvalue.real[least, None]) / (2 * np.pi) * distance
+    fine = np.full(_REFINED_MODES * distance.size, axis[-1])
+    fine[: near.size] = np.clip(near.ravel(), axis[0], axis[-1])
+    return np.sort(np.concatenate([axis, fine]))
+
+
+def growth_left(with_absorbers: np.ndarray, without: np.ndarray) -> np.ndarray:
+    """What absorbers leave of the growth: the largest on any wheel over that without absorbers.
+
+    Parameters
+    ----------
+    with_absorbers : (..., wheels) largest tendencies in a band
+    without : (wheels,) the same without absorbers
+
+    Returns
+    -------
+    (...,) array, not a number where nothing grows without absorbers
+    """
+    reference = np.max(without)
+    return np.max(with_absorbers, axis=-1) / (reference if reference > 0.0 else np.nan)
 
 
 NEAR = 0.1  # of the frequency of a peak

@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from tramdva.configuration.reading import Configuration
-from tramdva.configuration.uses import USES, used_values
+from tramdva.configuration.uses import USES, stages_read, used_values
 from tramdva.running.code_hash import code_hash
 
 SNAKEFILE = "Snakefile"
@@ -61,18 +61,9 @@ class Origins:
             self._known[line, name] = digest.hexdigest()[:DIGITS]
         return self._known[line, name]
 
-    def _read_by(self, line: str, name: str) -> Iterator[str]:
-        """Stages that a stage or figure of this line reads: some read others for some lines only.
-
-        As `read_by` and the rule `bogie_linearisation` of the pipeline choose them.
-        """
-        absorbers = self._configuration.lines[line].study.evolution_tendency.absorbers
-        for read in self._reads[name]:
-            given = read == "basic_model" and not self._configuration.derived[line]
-            untuned = name == "bogie_linearisation" and read == "curving_equilibrium"
-            if (given and name != "preflight") or (untuned and "tuned" not in absorbers):
-                continue
-            yield read
+    def _read_by(self, line: str, name: str) -> Sequence[str]:
+        """Stages that a stage or figure of this line reads."""
+        return stages_read(self._configuration, line, name, self._reads[name])
 
     def resolution(self, line: str, name: str) -> str:
         """Return `full` where all numerics behind a file are those of `config.yaml`, else `coarse`.

@@ -36,13 +36,18 @@ RANGES = {
     "absorber_damping": ("rubber of the absorber, damping", "%"),
 }
 
+BAND_FOUND = (
+    "The band of {min:g} to {max:g} Hz lies about the critical mode that was found without "
+    "absorbers, {mode}."
+)
+BAND_GIVEN = "The band of {min:g} to {max:g} Hz is as the line's file gives it."
 GYRATION = (
     "Mass of an absorber from its inertia at a radius of gyration of {:.0f} mm. Its weight is not "
     "in the model: a rotating absorber replaces mass of the axle."
 )
 TRANSLATION = (
-    "The weight of the translating absorbers acts on the mounting as told, but is left out of the "
-    "wheel loads; their inertia across the direction is in the model."
+    "Translating absorbers press on the wheels with their weight, and across their direction their "
+    "mass moves with the axle; without absorbers there is neither."
 )
 
 
@@ -306,8 +311,10 @@ def notes(cfg: Config, tuning: Values) -> list[str]:
     dropped, drawn = int(tuning["uncounted_cases"]), int(tuning["sampled_cases"])
     count = tuning["case"].size
     band, study = cfg["study"]["design_band"], cfg["study"]
+    chosen = BAND_FOUND.format(**band) if band.get("mode") else BAND_GIVEN.format(**band)
     turns = cfg["bogie"]["absorber"]["motion"] == "rotation"
     return [
+        chosen.replace("_", " "),
         f"Conditions: the line as configured, each range alone at both ends, and {drawn} points of "
         f"a seeded Sobol sequence over all ranges at once. Status of their equilibria: {found}.",
         f"Growth left (factor): largest evolution tendency between {band['min']:g} and "

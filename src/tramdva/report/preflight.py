@@ -101,9 +101,9 @@ def _vibrations(values: Mapping[str, np.ndarray]) -> Iterator[tuple[str, str]]:
         mode = str(values["critical_mode"]).replace("_", " ")
         frequency = float(values["critical_frequency"])
         rate = float(values["critical_growth_rate"])
-        yield "critical mode, by its shape", f"{mode}, {frequency:.1f} Hz, {rate:+.2f} 1/s"
+        yield "critical mode", f"{mode}, {frequency:.1f} Hz, {rate:+.2f} 1/s"
     else:
-        yield "critical mode, by its shape", "none is like the second bending of the paper's axle"
+        yield "critical mode", "no mode in the range of frequencies"
 
 
 def _parts(values: Mapping[str, np.ndarray]) -> Iterator[tuple[str, str]]:

@@ -34,11 +34,14 @@ class Fleet(NamedTuple):
     """The cases that have an equilibrium, as the absorbers see them.
 
     case : (s,) rows in the sample, the line as configured first
+    bare : (s, f, wheels) complex wear response without absorbers; bare_place : (s, f, 4), of theirs
     modes : PortModes (s, f, ...); frequency : (s, f) Hz; inertia : kg m^2 or kg
     steady : (s,) whether the bogie without absorbers is not self-excited at the forced friction
     """
 
     case: np.ndarray
+    bare: np.ndarray
+    bare_place: np.ndarray
     modes: PortModes
     frequency: np.ndarray
     inertia: float
@@ -47,7 +50,7 @@ class Fleet(NamedTuple):
     def tendency(self, design: Design | None, shares: Shares = (1.0, 1.0)) -> np.ndarray:
         """Evolution tendency (s, f, wheels): -Re H; shares of c_T and d_T are (s,) or numbers."""
         if design is None:
-            return -self.modes.output_by_wave.real
+            return -self.bare.real
         c_T, d_T = (
             value * np.reshape(share, (-1, 1)) for value, share in zip(design, shares, strict=True)
         )
@@ -64,13 +67,20 @@ class Fleet(NamedTuple):
         last = np.maximum(count - 1, 0)[:, None]
         place = inside.argmax(axis=1)[:, None] + np.minimum(np.arange(max(count.max(), 1)), last)
         rows = np.arange(len(place))[:, None]
-        modes, frequency = self.modes.at((rows, place)), self.frequency[rows, place]
-        return self._replace(modes=modes, frequency=frequency)
+        at = (rows, place)
+        return self._replace(
+            bare=self.bare[at],
+            bare_place=self.bare_place[at],
+            modes=self.modes.at(at),
+            frequency=self.frequency[at],
+        )
 
     def only(self, rows: ArrayLike) -> "Fleet":
         """Some of the cases."""
         return Fleet(
             self.case[rows],
+            self.bare[rows],
+            self.bare_place[rows],
             self.modes.at(rows),
             self.frequency[rows],
             self.inertia,
@@ -82,9 +92,11 @@ def fleet(sample: Mapping[str, np.ndarray], inertia: float) -> Fleet:
     """All cases of a sample that have an equilibrium."""
     case = np.flatnonzero(sample["status"] == "converged")
     found = stored_ports(sample)
-    modes = absorber_ports.port_modes(type(found)(*(values[case] for values in found)))
+    ports = found.ports
+    modes = absorber_ports.port_modes(type(ports)(*(values[case] for values in ports)))
     steady = sample["bare_growth_rate"][case, 0] < 0.0
-    return Fleet(case, modes, sample["frequency"][case], inertia, steady)
+    alone = found.without_absorbers[case], found.place_without[case]
+    return Fleet(case, *alone, modes, sample["frequency"][case], inertia, steady)
 
 
 def references(bare: np.ndarray, steady: np.ndarray) -> np.ndarray:

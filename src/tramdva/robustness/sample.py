@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.bogie.absorber_ports import Motion, Ports
+from tramdva.bogie.absorber_ports import Attachable, Motion, Ports
 from tramdva.bogie.conditions import Conditions, State
 from tramdva.bogie.names import AXLES, WHEELS
 
@@ -73,13 +73,16 @@ def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
     return {f"{name}_real": values.real, f"{name}_imag": values.imag}
 
 
-def port_variables(found: Ports) -> dict[str, np.ndarray]:
+def port_variables(found: Attachable) -> dict[str, np.ndarray]:
     """Variables of ``robustness_sample`` that hold the ports of cases."""
+    ports = found.ports
     return {
-        **_parts("wear_by_wave", found.output_by_wave),
-        **_parts("wear_by_force", found.output_by_force),
-        **_parts("place_by_wave", found.place_by_wave),
-        **_parts("place_by_force", found.place_by_force),
+        **_parts("bare_wear_by_wave", found.without_absorbers),
+        **_parts("bare_place_by_wave", found.place_without),
+        **_parts("wear_by_wave", ports.output_by_wave),
+        **_parts("wear_by_force", ports.output_by_force),
+        **_parts("place_by_wave", ports.place_by_wave),
+        **_parts("place_by_force", ports.place_by_force),
     }
 
 
@@ -98,12 +101,14 @@ def motion_variables(motions: Sequence[Motion], modes: int) -> dict[str, np.ndar
     }
 
 
-def stored_ports(sample: Mapping[str, np.ndarray]) -> Ports:
+def stored_ports(sample: Mapping[str, np.ndarray]) -> Attachable:
     """Ports (case, f, ...) of the variables of ``robustness_sample``."""
-    return Ports(2.0 * np.pi * sample["frequency"], *(
+    ports = Ports(2.0 * np.pi * sample["frequency"], *(
         _complex(sample, name)
         for name in ("wear_by_wave", "wear_by_force", "place_by_wave", "place_by_force")
     ))  # fmt: skip
+    alone = (_complex(sample, f"bare_{name}_by_wave") for name in ("wear", "place"))
+    return Attachable(*alone, ports)
 
 
 def stored_motion(sample: Mapping[str, np.ndarray], case: int, friction: int) -> Motion:

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from tramdva.bogie.critical_mode import Band, band_about, critical_mode, peak_bands
 from tramdva.bogie.curving import angle_of_attack, linearise
 from tramdva.bogie.modes import modes
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.reduction import Reduction, absorber_mass, chain_of, reduced, without_own_creep
-from tramdva.bogie.tracking import second_bending
 from tramdva.bogie.tram import BogieLine, Running, run_through
 from tramdva.bogie.vehicle import absorber_carriers
 from tramdva.contact import kalker, patch
@@ -25,8 +25,6 @@ SECTION_OF = {
     **dict.fromkeys(("m_A", "m_R", "c_A", "d_A", "c_R", "d_R"), "wheelset"),
     **dict.fromkeys(("m_T", "c_T", "d_T"), "absorber"),
 }
-# Of the frequency of the critical mode; about the paper's 54.7 Hz these are 45 and 65 Hz.
-BAND = (0.823, 1.188)
 # rad; with less the inner wheel does not slide steadily outwards, which the basic model is about.
 LEAST_ATTACK = 1e-3
 REASONS = {
@@ -46,7 +44,8 @@ def compute(
 
     Parameters
     ----------
-    cfg : sections of the bogie and of the basic model; None where the file gives nothing
+    cfg : sections of the bogie and of the basic model, None where the file gives nothing; and
+        ``tendency_axis``, ends of the frequencies of figure 10
     contact_geometry : variables of this file
 
     Returns
@@ -67,7 +66,6 @@ def compute(
     modes = [] if seen is None else [mode for mode in (seen.bending, seen.wheel) if mode]
     words = [] if seen is None else ["second_bending"] * bool(seen.bending)
     words += ["resilient_wheel"] if seen is not None and seen.wheel else []
-    critical = _critical(run, frequency_limits(cfg))
     incomplete = any(np.isnan(value) for value in used.values())
     return {
         **{name: np.float64(used[name]) for name in QUANTITIES},
@@ -78,34 +76,43 @@ def compute(
         "mode_frequency": np.array([mode.frequency for mode in modes]),
         "mode_growth_rate": np.array([mode.pole.real for mode in modes]),
         "mode_mass": np.array([mode.mass for mode in modes]),
-        **critical,
+        **_bands(cfg, run),
         "status": np.array(status),
         "reason": np.array(REASONS.get(status, "") if incomplete else ""),
     }
 
 
-def _critical(run: Running, limits: tuple[float, float]) -> dict[str, np.ndarray]:
-    """Second bending of the axle where it grows most, and the band about it."""
-    names = ("frequency", "growth_rate", "likeness")
-    out = {f"critical_{name}": np.float64(np.nan) for name in names}
-    out |= {"critical_mode": np.array(""), "band_min": out["critical_frequency"]}
-    out |= {"band_max": out["critical_frequency"]}
-    if run.equilibrium.status != "converged":
-        return out
-    found = modes(run.curve, run.equilibrium.state, limits)
-    bending = second_bending(run.curve, found)
-    if not bending:
-        return out
-    mode = max(bending, key=lambda tracked: found.eigenvalue[tracked.index].real)
-    frequency = found.frequency[mode.index]
-    low, high = (share * frequency for share in BAND)
+def _bands(cfg: Mapping[str, Any], run: Running) -> dict[str, np.ndarray]:
+    """Critical mode, the band about it, and the bands of the peaks of figure 10."""
+    none, peaks, reason = np.float64(np.nan), [], REASONS.get(run.equilibrium.status, "")
+    mode, band = None, Band("", np.nan, np.nan)
+    limits = frequency_limits(cfg)
+    axis = cfg["tendency_axis"]["min"], cfg["tendency_axis"]["max"]
+    if not reason:
+        every = min(limits[0], axis[0]), max(limits[1], axis[1])
+        found = modes(run.curve, run.equilibrium.state, every)
+        mode = critical_mode(run.curve, found, limits)
+        reason = "" if mode else "the bogie has no mode in the range of study.bogie_modes.frequency"
+    if mode is not None:
+        band, peaks = band_about(mode, axis), peak_bands(run.curve, found, mode, axis)
+        if not band.high > band.low:
+            band = Band("", np.nan, np.nan)
+            reason = (
+                f"the critical mode, {mode.frequency:.0f} Hz, lies outside the frequencies of "
+                "study.evolution_tendency: give study.tendency_maps.design_band"
+            )
     return {
-        "critical_mode": np.array(f"second_bending_{mode.axle}"),
-        "critical_frequency": np.float64(frequency),
-        "critical_growth_rate": np.float64(found.eigenvalue[mode.index].real),
-        "critical_likeness": np.float64(mode.likeness),
-        "band_min": np.float64(low),
-        "band_max": np.float64(high),
+        "critical_mode": np.array(mode.name if mode else ""),
+        **{
+            f"critical_{name}": np.float64(getattr(mode, name) if mode else none)
+            for name in ("frequency", "growth_rate", "likeness")
+        },
+        "band_min": np.float64(band.low),
+        "band_max": np.float64(band.high),
+        "peak": np.array([peak.name for peak in peaks], dtype="U40"),
+        "peak_min": np.array([peak.low for peak in peaks]),
+        "peak_max": np.array([peak.high for peak in peaks]),
+        "band_reason": np.array(reason),
     }
 
 

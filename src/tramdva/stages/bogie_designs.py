@@ -9,10 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tramdva.bogie.absorbers import family_of
+from tramdva.bogie.conditions import as_configured
 from tramdva.bogie.curving import linearise, oscillations
 from tramdva.bogie.tram import BogieLine, Running, changed, run_through
 from tramdva.evolution.any_absorber import any_absorber
-from tramdva.evolution.tendency import largest, order_of_frequency
+from tramdva.evolution.tendency import (
+    finer_near_modes,
+    growth_left,
+    largest,
+    order_of_frequency,
+)
 from tramdva.stages.axes import best_design, design_axis
 from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
 from tramdva.stages.wheels_out_of_round import wearing
@@ -74,12 +80,13 @@ def compute(
         **{f"quiet_{name}": excited_quietly[name] for name in ("growth_rate", "self_excitation")},
         **none,
         **_tendencies(cfg, lines[1], quiet, c_T, d_T, frequency, steady),
+        **_in_band(cfg, lines[1], quiet, c_T, d_T, steady),
     }
     return values | comparison(values)
 
 
 def comparison(values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Worse wheel and best of the designs; those that vibrate in operation are none.
+    """What each of the designs leaves, and the best; those that vibrate in operation are none.
 
     Parameters
     ----------
@@ -92,10 +99,8 @@ def comparison(values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         ``worst_band_factor`` (d_T, c_T); ``best_c_T`` in N m/rad and ``best_d_T`` in N m s/rad (N/m
         and N s/m if the absorber translates); ``largest_tendency`` (wheel).
     """
-    stable = (values["self_excitation"] == "stable")[..., None]
-    known = np.where(stable, values["band_factor"], np.nan)[..., values["band_status"] == "found"]
-    worst = known.max(axis=-1, initial=-np.inf)
-    worst = np.where(np.isfinite(worst), worst, np.nan)
+    left = growth_left(values["band_tendency"], values["none_band_tendency"])
+    worst = np.where(values["self_excitation"] == "stable", left, np.nan)
     c_T, d_T, _ = best_design(worst, values["c_T"], values["d_T"])
     return {
         "worst_band_factor": worst,
@@ -151,24 +156,38 @@ def _over_designs(
 
 
 def _tendencies(cfg, line: BogieLine, quiet: Running, c_T, d_T, frequency, steady) -> dict:
-    """Tendency of every steady design, and what it leaves of the growth in the band of design."""
-    band, wheels = cfg["study"]["design_band"], cfg["out_of_roundness"]["wheels"]
-    near = (frequency >= band["min"]) & (frequency <= band["max"])
+    """Tendency (d_T, c_T, wheel, f) of every steady design, and without absorbers."""
+    wheels = cfg["out_of_roundness"]["wheels"]
     tendency = np.full((d_T.size, c_T.size, len(wheels), frequency.size), np.nan)
     without = np.full((len(wheels), frequency.size), np.nan)
     if quiet.equilibrium.status == "converged":
-        attached = any_absorber(wearing(cfg), line, quiet.curve, quiet.equilibrium, frequency)
+        attached = any_absorber(wearing(cfg), as_configured(line, quiet), frequency)
         if steady["none"]:
             without = attached.without().T
         for i, j in zip(*np.nonzero(steady["designs"]), strict=True):
             tendency[i, j] = attached.tendency(c_T[j], d_T[i]).T
-    reference = without[:, near].max(axis=1, initial=-np.inf)
-    found = reference > 0.0
-    factor = tendency[..., near].max(axis=-1, initial=-np.inf) / np.where(found, reference, np.nan)
     return {
         "status": quiet.equilibrium.status,
         "tendency": tendency,
         "none_tendency": without,
-        "band_status": np.where(found, "found", "no_peak"),
-        "band_factor": factor,
+    }
+
+
+def _in_band(cfg, line: BogieLine, quiet: Running, c_T, d_T, steady) -> dict[str, np.ndarray]:
+    """Largest tendency of every steady design in the band of design, finely looked at."""
+    band, limits = cfg["study"]["design_band"], cfg["study"]["frequency"]
+    step = (limits["max"] - limits["min"]) / (cfg["numerics"]["frequency_points"] - 1)
+    axis = np.linspace(band["min"], band["max"], int(np.ceil((band["max"] - band["min"]) / step)))
+    if quiet.equilibrium.status == "converged":
+        linear = linearise(quiet.curve, quiet.equilibrium.state)
+        axis = finer_near_modes(axis, np.linalg.eigvals(linear.matrix))
+    found = _tendencies(cfg, line, quiet, c_T, d_T, axis, steady)
+    without = found["none_tendency"].max(axis=1)
+    with_it = found["tendency"].max(axis=-1)
+    grows = without > 0.0
+    return {
+        "band_tendency": with_it,
+        "none_band_tendency": without,
+        "band_status": np.where(grows, "found", "no_peak"),
+        "band_factor": with_it / np.where(grows, without, np.nan),
     }

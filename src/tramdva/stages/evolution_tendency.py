@@ -1,7 +1,7 @@
 """The stage `evolution_tendency`: evolution tendency with every absorber (figure 10)."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from tramdva.evolution.tendency import (
     NEAR,
     evolution_tendency,
     excitation_frequency,
+    finer_near_modes,
+    growth_left,
     highest_peak,
     largest,
     linear_wear_response,
@@ -62,10 +64,11 @@ def compute(
             response = linear_wear_response(bogie, sensitivity, at, speed, radius, worn_by.wheels)
             found.append(response[:, worn_by.places].T)
     linear, at_orders = np.array(linear), np.array(at_orders)
+    fine = finely(cfg, [linearisations[name] for name in absorbers])
     simulated = _simulated(absorbers, worn)
     # One scale for all curves of a wheel: that of the simulated orders, as in the paper.
     scale = simulated["evolution_tendency"][absorbers.index("none")]
-    peaks = _peaks(cfg, absorbers, axis, linear, frequency, simulated["evolution_tendency"])
+    peaks = _peaks(cfg, fine, frequency, simulated["evolution_tendency"])
     return {
         **_absorbers(linearisations, absorbers),
         "wheel": np.array(cfg["out_of_roundness"]["wheels"]),
@@ -85,9 +88,51 @@ def compute(
         "order_linearised_real": at_orders.real,
         "order_linearised_imag": at_orders.imag,
         "linearised_mean_wear_depth": np.array(worn_mean),
+        **fine.in_band(),
         **peaks,
         "peak_tendency_normalised": normalised(peaks["peak_tendency"], scale),
     }
+
+
+class Fine(NamedTuple):
+    """Linearised tendency at frequencies that are finer near the modes.
+
+    band : ``min`` and ``max`` in Hz, of design
+    absorbers : (a,) names; frequency : (a, f) Hz; tendency : (a, wheels, f)
+    """
+
+    band: Mapping[str, float]
+    absorbers: list[str]
+    frequency: np.ndarray
+    tendency: np.ndarray
+
+    def in_band(self) -> dict[str, np.ndarray]:
+        """Largest tendency (absorber, wheel) in the band of design, and what is left of it."""
+        inside = (self.frequency >= self.band["min"]) & (self.frequency <= self.band["max"])
+        top = np.where(inside[:, None], self.tendency, -np.inf).max(axis=-1)
+        return {
+            "band_tendency": top,
+            "band_growth_left": growth_left(top, top[self.absorbers.index("none")]),
+        }
+
+
+def finely(cfg: Mapping[str, Any], linearisations: Sequence[Mapping[str, np.ndarray]]) -> Fine:
+    """Tendency of the linearised vehicle with each absorber; arguments as in `compute`."""
+    study, worn_by = cfg["study"], wearing(cfg)
+    axis = np.linspace(
+        study["frequency"]["min"], study["frequency"]["max"], cfg["numerics"]["frequency_points"]
+    )
+    frequency, tendency = [], []
+    for one in map(stored_bogie, linearisations):
+        frequency.append(finer_near_modes(axis, one.bogie.eigenvalue))
+        sensitivity = wear_sensitivity(one.bogie, one.law, worn_by)
+        response = linear_wear_response(
+            one.bogie, sensitivity, frequency[-1], one.places.speed, one.wheel_radius,
+            worn_by.wheels,
+        )  # fmt: skip
+        tendency.append(evolution_tendency(response[:, worn_by.places].T))
+    names = [str(values["absorber"]) for values in linearisations]
+    return Fine(study["design_band"], names, np.array(frequency), np.array(tendency))
 
 
 def fastest_order(
@@ -157,23 +202,24 @@ def _levels(absorbers, worn, tendency: np.ndarray, revolutions: float) -> dict[s
     }
 
 
-def _peaks(cfg, absorbers, axis, linear, frequency, simulated) -> dict[str, np.ndarray]:
+def _peaks(cfg, fine: Fine, frequency, simulated) -> dict[str, np.ndarray]:
     """Positive peaks without absorbers in the bands of the study, and what is left of them.
 
     With absorbers a peak may have no top any more: its tendency is the largest within `NEAR` of the
     frequency of the peak without, on the axis and at whole orders.
     """
-    bands, tendency = cfg["study"]["peaks"], evolution_tendency(linear)
-    none = absorbers.index("none")
+    bands, tendency, axes = cfg["study"]["peaks"], fine.tendency, fine.frequency
+    none = fine.absorbers.index("none")
     shape = (*tendency.shape[:2], len(bands))
     top, value, whole = (np.full(shape, np.nan) for _ in range(3))
     for a, w, k in np.ndindex(*shape):
+        axis, own = np.unique(axes[a], return_index=True)
         inside = (axis >= bands[k]["min"]) & (axis <= bands[k]["max"])
-        top[a, w, k], _ = highest_peak(axis[inside], tendency[a, w, inside])
+        top[a, w, k], _ = highest_peak(axis[inside], tendency[a, w, own][inside])
     for a, w, k in np.ndindex(*shape):
         place = top[none, w, k]
         if np.isfinite(place):
-            value[a, w, k] = np.max(tendency[a, w, np.abs(axis / place - 1.0) <= NEAR])
+            value[a, w, k] = np.max(tendency[a, w, np.abs(axes[a] / place - 1.0) <= NEAR])
             near = np.abs(frequency / place - 1.0) <= NEAR
             whole[a, w, k] = np.max(simulated[a, w, near], initial=-np.inf)
     whole = np.where(np.isfinite(whole), whole, np.nan)

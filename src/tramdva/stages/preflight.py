@@ -10,10 +10,9 @@ from tramdva.bogie.curving import angle_of_attack, linearise, wheel_loads
 from tramdva.bogie.names import AXLES, WHEELS
 from tramdva.bogie.tram import BogieLine, Running, absorber, changed, run_through
 from tramdva.contact import patch
-from tramdva.contact.measured_profile import measured_profile
-from tramdva.contact.parameters import ContactGeometry
-from tramdva.contact.tables import parametric_wheel, zone_names
+from tramdva.contact.tables import zone_names
 from tramdva.stages.bogie_sections import bogie_line, frequency_limits
+from tramdva.stages.contact_sections import line_profile
 from tramdva.variables.preflight import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
@@ -155,12 +154,7 @@ def _modes(tables) -> dict[str, np.ndarray]:
 
 
 def _profile(cfg: Mapping[str, Any], file_of) -> dict[str, np.ndarray]:
-    given = cfg["contact_geometry"]["wheel"]
-    if given["measured"]:
-        profile = measured_profile(file_of(given["measured"]), "wheel", given["measured_noise"])
-    else:
-        geometry = ContactGeometry.model_validate(cfg["contact_geometry"])
-        profile = parametric_wheel(geometry.wheel)
+    profile = line_profile(cfg, "wheel", file_of)
     rows = np.unique(np.linspace(0, profile.position.size - 1, POINTS).astype(int))
     return {
         "profile_position": profile.position[rows],

@@ -285,18 +285,19 @@ def _loads(cfg, sample, near: Fleet, designs) -> dict[str, np.ndarray]:
     for k, design in enumerate(designs):
         if design is not None and not np.isfinite(design[0]):
             continue
-        stiffness, damping = (0.0, 0.0) if design is None else design
-        # Without absorbers: nothing moves relative to anything.
-        inertia = near.inertia if design is not None else 0.0
-        spring = np.maximum(stiffness * c, np.finfo(float).tiny) + 1j * turn * damping * d
-        carrier = np.abs(near.modes.carrier(inertia, spring.real, damping * d)).max(axis=2)
-        stroke = np.abs(near.modes.stroke(inertia, spring.real, damping * d)).max(axis=2)
-        values = {
-            "carrier": amplitude * carrier,
-            "stroke": amplitude * stroke,
-            "torque": amplitude * np.abs(spring) * stroke,
-            "power": 0.5 * damping * d * (turn * amplitude * stroke) ** 2,
-        }
+        if design is None:
+            carrier, nothing = np.abs(near.bare_place).max(axis=2), np.zeros_like(turn)
+            values = {"carrier": amplitude * carrier, **dict.fromkeys(names[1:], nothing)}
+        else:
+            stiffness, damping = design[0] * c, design[1] * d
+            carrier = np.abs(near.modes.carrier(near.inertia, stiffness, damping)).max(axis=2)
+            stroke = np.abs(near.modes.stroke(near.inertia, stiffness, damping)).max(axis=2)
+            values = {
+                "carrier": amplitude * carrier,
+                "stroke": amplitude * stroke,
+                "torque": amplitude * np.abs(stiffness + 1j * turn * damping) * stroke,
+                "power": 0.5 * damping * (turn * amplitude * stroke) ** 2,
+            }
         for name, value in values.items():
             out[f"{name}_amplitude"][k, near.case] = value.max(axis=1)
         decisive = values["carrier" if design is None else "torque"].argmax(axis=1)

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from tramdva.bogie import absorber_ports
-from tramdva.bogie.absorber_ports import Motion, Ports
+from tramdva.bogie.absorber_ports import Attachable, Motion, Ports
+from tramdva.bogie.absorber_weight import carrying
 from tramdva.bogie.conditions import Conditions, State, as_configured, reached, under
-from tramdva.bogie.curving import equilibrium, linearise, with_friction_decrease
+from tramdva.bogie.curving import linearise, near, with_friction_decrease
 from tramdva.bogie.tram import run_through
 from tramdva.evolution.any_absorber import wear_ports
-from tramdva.evolution.tendency import NEAR
+from tramdva.evolution.tendency import NEAR, finer_near_modes
 from tramdva.robustness.sample import (
     FRICTIONS,
     cases,
@@ -24,15 +25,13 @@ from tramdva.robustness.sample import (
     ranges,
     unsprung_mass,
 )
-from tramdva.stages.bogie_sections import quiet_bogie_line
+from tramdva.stages.bogie_sections import frequency_limits, quiet_bogie_line
 from tramdva.stages.wheels_out_of_round import wearing
 from tramdva.variables.robustness_sample import VARIABLES
 
 __all__ = ["VARIABLES", "compute"]
 
-# Axis of frequencies: refined about this many modes, at these distances in their growth rates.
-_REFINED_MODES = 6
-_DISTANCES = np.array([0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5])
+Frictions = tuple[State, State]  # by `FRICTIONS`
 
 
 def compute(
@@ -80,28 +79,47 @@ def _case(cfg: Mapping[str, Any], nominal: State, conditions: Conditions) -> dic
     state = nominal
     if nominal.equilibrium.status == "converged" and conditions != nominal.conditions:
         state = reached(nominal, conditions)
-    steady, status = None, state.equilibrium.status
-    if status == "converged":
-        decrease = conditions.friction_decrease * cfg["creep_force"]["B"]
-        system = with_friction_decrease(state.system, decrease)
-        steady = State(state.line, conditions, system, equilibrium(system, state.equilibrium.state))
-        status = steady.equilibrium.status
-    if steady is None or status != "converged":
+    found, status = _steady(cfg, state)
+    if status != "converged":
         return _no_case(cfg, nominal, status)
-    limits = cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"]
-    motions = [_motion(each) for each in (state, steady)]
-    axis = _frequencies(cfg, motions[0].eigenvalue)
+    (bare, laden), limits = found, frequency_limits(cfg)
+    motions = [_motion(each) for each in bare]
+    alone = [absorber_ports.growth_rate(each.eigenvalue, limits) for each in motions]
+    axis = finer_near_modes(_axis(cfg), motions[0].eigenvalue)
+    if laden is not bare:
+        motions = [_motion(each) for each in laden]
     values = {
         "frequency": axis,
-        "bare_growth_rate": np.array(
-            [absorber_ports.growth_rate(each.eigenvalue, limits) for each in motions]
-        ),
-        **port_variables(_ports(cfg, state, axis)),
+        "bare_growth_rate": np.array(alone),
+        **port_variables(wear_ports(wearing(cfg), bare[0], laden[0], axis)),
         **motion_variables(motions, state.system.states),
     }
-    responses = [value for name, value in values.items() if name.startswith("wear_by")]
+    responses = [value for name, value in values.items() if "wear_by" in name]
     finite = all(np.isfinite(value).all() for value in responses)
     return {"status": "converged" if finite else "not_finite", **values}
+
+
+def _steady(cfg: Mapping[str, Any], state: State) -> tuple[tuple[Frictions, Frictions], str]:
+    """States with the friction decreases of `FRICTIONS`, without absorbers and under their weight.
+
+    And the first status of theirs that tells of no steady running, else `converged`.
+    """
+    bare = (state, _operating(cfg, state))
+    laden = bare
+    if all(each.equilibrium.status == "converged" for each in bare):
+        heavy = carrying(state)
+        laden = bare if heavy is state else (heavy, _operating(cfg, heavy))
+    statuses = [each.equilibrium.status for each in (*bare, *laden)]
+    return (bare, laden), next((s for s in statuses if s != "converged"), "converged")
+
+
+def _operating(cfg: Mapping[str, Any], state: State) -> State:
+    """Equilibrium at the friction decrease of operation, from that of the forced excitation."""
+    if state.equilibrium.status != "converged":
+        return state
+    decrease = state.conditions.friction_decrease * cfg["creep_force"]["B"]
+    system = with_friction_decrease(state.system, decrease)
+    return state._replace(system=system, equilibrium=near(system, state.equilibrium.state))
 
 
 def _motion(state: State) -> Motion:
@@ -117,27 +135,9 @@ def _axis(cfg: Mapping[str, Any]) -> np.ndarray:
     return np.linspace(low, high, int(np.ceil((high - low) / cfg["numerics"]["frequency_step"])))
 
 
-def _frequencies(cfg: Mapping[str, Any], eigenvalue: np.ndarray) -> np.ndarray:
-    """Frequencies in Hz of a case, rising: finer about the modes of least damping."""
-    axis = _axis(cfg)
-    frequency = eigenvalue.imag / (2.0 * np.pi)
-    inside = np.flatnonzero((frequency > axis[0]) & (frequency < axis[-1]))
-    least = inside[np.argsort(np.abs(eigenvalue.real[inside]), kind="stable")[:_REFINED_MODES]]
-    distance = np.concatenate([-_DISTANCES[:0:-1], _DISTANCES])
-    near = frequency[least, None] + np.abs(eigenvalue.real[least, None]) / (2 * np.pi) * distance
-    fine = np.full(_REFINED_MODES * distance.size, axis[-1])
-    fine[: near.size] = np.clip(near.ravel(), axis[0], axis[-1])
-    return np.sort(np.concatenate([axis, fine]))
-
-
-def _ports(cfg: Mapping[str, Any], state: State, axis: np.ndarray) -> Ports:
-    """Wear of the wheels out of round and motion of the absorbers' places at frequencies in Hz."""
-    return wear_ports(wearing(cfg), state.line, state.system, state.equilibrium, axis).ports
-
-
 def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, Any]:
     """Variables of a case without equilibrium: all NaN but its status."""
-    axis = _frequencies(cfg, np.zeros(0, complex))
+    axis = finer_near_modes(_axis(cfg), np.zeros(0, complex))
     wheels = len(cfg["out_of_roundness"]["wheels"])
     absorber = nominal.line.bogie.absorber
     carriers = 12 if absorber.motion == "translation" else 4
@@ -150,6 +150,7 @@ def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, A
         np.full((axis.size, n), none),
         np.full((axis.size, n, n), none),
     )
+    alone = Attachable(empty.output_by_wave, empty.place_by_wave, empty)
     still = Motion(
         np.full(modes, none), np.full((carriers, modes), none), np.full((modes, carriers), none)
     )
@@ -157,6 +158,6 @@ def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, A
         "status": status,
         "frequency": axis,
         "bare_growth_rate": np.full(len(FRICTIONS), np.nan),
-        **port_variables(empty),
+        **port_variables(alone),
         **motion_variables([still] * len(FRICTIONS), modes),
     }

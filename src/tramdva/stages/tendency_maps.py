@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.bogie.conditions import State, as_configured, reached
-from tramdva.bogie.curving import oscillations
+from tramdva.bogie.curving import linearise, oscillations
 from tramdva.bogie.rough_vehicle import rough_bogie
 from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.tram import absorber as absorber_of
@@ -15,6 +15,8 @@ from tramdva.evolution.any_absorber import any_absorber
 from tramdva.evolution.growing_orders import growing_orders
 from tramdva.evolution.tendency import (
     evolution_tendency,
+    finer_near_modes,
+    growth_left,
     largest,
     linear_wear_response,
     wear_sensitivity,
@@ -148,16 +150,16 @@ def _over_absorbers(cfg, known: State, frequency: np.ndarray) -> dict[str, np.nd
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    attached = any_absorber(wearing(cfg), known.line, known.system, known.equilibrium, frequency)
-    without = attached.without()
-    near = (frequency >= study["design_band"]["min"]) & (frequency <= study["design_band"]["max"])
-    factors = np.empty((without.shape[1], points, points))
-    for i, d in enumerate(d_T):
-        for j, c in enumerate(c_T):
-            factors[:, i, j] = attached.tendency(c, d)[near].max(axis=0) / without[near].max(axis=0)
+    band, step = study["design_band"], frequency[1] - frequency[0]
+    axis = np.linspace(band["min"], band["max"], int(np.ceil((band["max"] - band["min"]) / step)))
+    matrix = linearise(known.system, known.equilibrium.state).matrix
+    axis = finer_near_modes(axis, np.linalg.eigvals(matrix))
+    attached = any_absorber(wearing(cfg), known, axis)
+    without = attached.without().max(axis=0)
+    left = np.array([[attached.tendency(c, d).max(axis=0) for c in c_T] for d in d_T])
     return {
         "map_d_T": d_T,
         "map_c_T": c_T,
-        "map_factor": factors,
-        "map_worst_factor": factors.max(axis=0),
+        "map_factor": np.moveaxis(left / np.where(without > 0.0, without, np.nan), -1, 0),
+        "map_worst_factor": growth_left(left, without),
     }

@@ -41,12 +41,20 @@ VARIABLES = Stage(
         "mode_frequency": real("mode", "Hz", "its frequency without creep force at the wheel"),
         "mode_growth_rate": real("mode", "s-1", "its growth rate"),
         "mode_mass": real("mode", "kg", "its modal mass at the contact point of the inner wheel"),
-        "critical_mode": text("", "second bending that grows most without absorbers; else empty"),
+        "critical_mode": text(
+            "", "mode that vibrates by itself without absorbers, else second bending"
+        ),
         "critical_frequency": real("", "Hz", "its frequency"),
         "critical_growth_rate": real("", "s-1", "its growth rate"),
-        "critical_likeness": real("", "1", "how much its shape is that of the paper's, 0 to 1"),
+        "critical_likeness": real(
+            "", "1", "likeness of its shape and the paper's second bending, NaN: another"
+        ),
         "band_min": real("", "Hz", "lower end of the band about it that absorbers are for"),
         "band_max": real("", "Hz", "upper end of this band"),
+        "peak": text("peak", "mode behind a peak of figure 10"),
+        "peak_min": real("peak", "Hz", "lower end of its band"),
+        "peak_max": real("peak", "Hz", "upper end of its band"),
+        "band_reason": text("", "why there is no band; empty where there is one"),
         "status": flag("", REDUCTION_STATUS, "how the reduction ended"),
         "reason": text("", "why the line has no basic model; empty where it has one"),
     },

@@ -42,11 +42,18 @@ VARIABLES = Stage(
         },
         "status": flag("", CURVING_STATUS, "status of the equilibrium without absorbers"),
         "band_status": flag("wheel", PEAK_STATUS, "whether waves grow in the band of design"),
+        "band_tendency": real(
+            "d_T c_T wheel", "1", "largest tendency in this band, looked at finely near the modes"
+        ),
+        "none_band_tendency": real("wheel", "1", "the same without absorbers"),
         "band_factor": real(
             "d_T c_T wheel", "1", "largest tendency in this band over that without absorbers"
         ),
         "worst_band_factor": real(
-            "d_T c_T", "1", "of the wheels, the largest factor, NaN: self-excited in operation"
+            "d_T c_T",
+            "1",
+            "largest tendency in this band on any wheel over that without absorbers, NaN: "
+            "self-excited in operation",
         ),
         "best_c_T": real("", "N m/rad", "stiffness of the least of these factors, NaN: none"),
         "best_d_T": real("", "N m s/rad", "its damping"),

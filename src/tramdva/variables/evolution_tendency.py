@@ -55,6 +55,12 @@ VARIABLES = Stage(
         ),
         "order_linearised_imag": real("absorber wheel order", "1", "its imaginary part"),
         "linearised_mean_wear_depth": real("absorber wheel", "m", "mean depth in equilibrium"),
+        "band_tendency": real(
+            "absorber wheel", "1", "largest linearised tendency in the band of design"
+        ),
+        "band_growth_left": real(
+            "absorber", "1", "the same on any wheel over that without absorbers"
+        ),
         "peak": text("peak", "positive peak, by the mode behind it"),
         "peak_frequency": real("absorber wheel peak", "Hz", "frequency of the peak"),
         "peak_tendency": real("absorber wheel peak", "1", "largest tendency near it"),

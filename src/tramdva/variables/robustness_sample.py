@@ -24,6 +24,13 @@ VARIABLES = Stage(
         "unsprung_mass": real("", "kg", "axle with its wheels as configured"),
         "frequency": real("case node", "Hz", "frequency"),
         "bare_growth_rate": real("case friction", "s-1", "largest growth rate without absorbers"),
+        **_complex(
+            "bare_wear_by_wave", "case node wheel", "1", "wear response to waves without absorbers"
+        ),
+        **_complex(
+            "bare_place_by_wave", "case node place", "rad/m", "motion of their places without them"
+        ),
+        # The others with the mass of translating absorbers across their direction, and its weight.
         **_complex("wear_by_wave", "case node wheel", "1", "wear response to waves"),
         **_complex(
             "wear_by_force",

@@ -49,7 +49,7 @@ VARIABLES = Stage(
             "1",
             "largest tendency near the second bending mode over that without absorber",
         ),
-        "map_worst_factor": real("map_d_T map_c_T", "1", "of the wheels, the largest factor"),
+        "map_worst_factor": real("map_d_T map_c_T", "1", "largest on any wheel over that without"),
         "best_c_T": real("wheel", "N m/rad", "stiffness of the smallest factor of the map"),
         "best_d_T": real("wheel", "N m s/rad", "damping of the smallest factor of the map"),
         "best_factor": real("wheel", "1", "smallest factor of the map"),
