@@ -46,6 +46,7 @@ READ_MEASUREMENTS = {
     "contact.two_columns",
     "contact.measured_profile",
     "evolution.out_of_roundness",
+    "route.sections",
 }
 CHECK_MEASUREMENTS = READ_MEASUREMENTS | {"contact.tables"}  # with profiles of the parameters
 READ_TABLES = {"contact.creep_table"}  # a file beside the code, whose digest the code holds

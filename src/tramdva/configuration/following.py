@@ -5,6 +5,7 @@ from what it gives, so that the tram computed is the tram described:
 
 * gauge, speed and axle load, in people's units (section `tram`), become positions, speed and mass
   of the car;
+* the route is the line's own curve to either side between straight track;
 * the ranges of the maps over speed and radius are the paper's shares of the line's own values;
 * the basic model of figures 2 to 7 is derived from the bogie (stage `basic_model`), value by value,
   where the file does not give the value;
@@ -42,6 +43,8 @@ WHEEL_CENTRES = 0.065  # m, by which the wheels' centres are further apart than 
 # The maps of the paper's line over its own speed and radius: 2.5 to 6.5 m/s, 20 to 100 m.
 SPEED_SHARES, RADIUS_SHARES = (0.625, 1.625), (0.8, 4.0)
 SMALLEST_RADIUS, LARGEST_RADIUS, SLOWEST, FASTEST = 10.0, 5000.0, 0.5, 30.0
+# Of a kilometre of a route that nobody told, in m: straight track, and the own curve to each side.
+STRAIGHT, CURVE = 920.0, 40.0
 INERTIAS = ("roll_inertia", "pitch_inertia", "yaw_inertia")
 # How far both descriptions of a tram may differ: shares of the bogie's value.
 SAME, SAME_LOAD = 0.02, 0.25
@@ -84,6 +87,7 @@ class Description:
         self._load()
         self._rails()
         self._ranges()
+        self._route()
 
     def _number(self, path: str) -> float | None:
         """Value of the line at a path: its own, else what follows, else the paper's."""
@@ -158,6 +162,23 @@ class Description:
             path, angle = "contact_geometry.rail.inclination", 1.0 / self.tram.rail_inclination_1_to
             if not self._refuse("rail_inclination_1_to", path, angle):
                 self._follow(path, round(angle, 9))
+
+    def _route(self) -> None:
+        """Route of a line that tells none: its own curve to either side, and straight track."""
+        route = self.own.get("route")
+        if isinstance(route, Mapping) and (route.get("sections") or route.get("file")):
+            return
+        radius, speed = self._number("track.radius"), self._number("track.speed")
+        half, cant = self._number("bogie.wheel.half_distance"), self._number("track.cant")
+        if None in (radius, speed, half, cant):
+            return
+        common = {"speed_km_h": round(3.6 * speed, 6)}
+        curve = {"radius_m": radius, "cant_mm": round(2e3 * half * cant, 6), **common}
+        self.follows.setdefault("route", {})["sections"] = [
+            {"name": "straight", "length_m": STRAIGHT, "turn": "straight", **common},
+            {"name": "own curve left", "length_m": CURVE, "turn": "left", **curve},
+            {"name": "own curve right", "length_m": CURVE, "turn": "right", **curve},
+        ]
 
     def _ranges(self) -> None:
         """Ranges of the maps where the line runs otherwise than the paper's."""

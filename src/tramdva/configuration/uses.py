@@ -329,6 +329,8 @@ def used_values(config: Configuration, line: str, name: str) -> dict[str, Any]:
         the stage `basic_model` derives from the bogie is None.
     """
     everything = config.lines[line].model_dump(mode="json")
+    # What a section of the route does not say is left out: None stands for what is derived.
+    everything["route"] = config.lines[line].route.model_dump(mode="json", exclude_none=True)
     measured = config.measured[line]
     everything["measured"] = {
         what: measured[what].sha256 if what in measured else "" for what in measured_files.KEYS

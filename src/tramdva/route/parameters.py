@@ -7,7 +7,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from tramdva.quantities import Label, Real, Section, measured_file, quantity
+from tramdva.quantities import Label, Real, Section, Whole, measured_file, quantity
 
 TURNS = ("left", "right", "straight")
 MOST_SECTIONS = 2000
@@ -72,13 +72,19 @@ class MeasuredWear(Section):
         "ASSUME",
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _silent(cls, given: Any) -> Any:
+        silent = {"flange_mm_per_10000_km": None}
+        return {**silent, **given} if isinstance(given, Mapping) else given
+
 
 class InitialSpectrum(Section):
     """Levels of the orders of a wheel that has just been turned."""
 
     level_dB: Real = quantity("level of order 1, effective value re 1 um", "dB", -60, 60, "ASSUME")
     slope_dB_per_octave: Real = quantity("change per doubled order", "dB", -30, 10, "ASSUME")
-    seed: Annotated[int, Field(ge=0, le=2147483647, description="seed of the phases")]
+    seed: Whole = quantity("seed of the phases", "-", 0, 2147483647)
 
 
 class Turning(Section):

@@ -17,8 +17,7 @@ from tramdva.route.scaling import METRES, Scales, cases_of, scales
 from tramdva.route.scatter import in_phase_growth, own_growth
 from tramdva.route.search import energy_distance
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_response import designs_of
-from tramdva.stages.route_sections import Lap, lap_of
+from tramdva.stages.route_sections import Lap, designs_of, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_remedies import VARIABLES
 from tramdva.wear.chart import METHODS

@@ -8,7 +8,6 @@ import numpy as np
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.parameters import BogieAbsorber
 from tramdva.bogie.tram import BogieLine
-from tramdva.bogie.tram import absorber as absorber_of
 from tramdva.evolution.tendency import Wearing
 from tramdva.route.classes import OWN_WHEELS
 from tramdva.route.parameters import MeasuredWear
@@ -16,7 +15,7 @@ from tramdva.route.response import SURFACES, own_wear, run_classes
 from tramdva.route.scaling import depths, revolutions, scales
 from tramdva.route.speeds import halved
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_sections import Lap, case_name, lap_of
+from tramdva.stages.route_sections import Lap, case_name, designs_of, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_response import VARIABLES
 from tramdva.wear.chart import METHODS
@@ -85,22 +84,6 @@ def compute(
         "wear_scale": scale,
         "flange_wear_ratio": ratio,
     }
-
-
-def designs_of(
-    line: BogieLine,
-    robust_tuning: Mapping[str, np.ndarray],
-    route_tuning: Mapping[str, np.ndarray],
-) -> dict[str, BogieAbsorber | None]:
-    """Absorbers by name: none, the line's and those that the searches found."""
-    columns = (robust_tuning[name] for name in ("design", "I_T", "c_T", "d_T"))
-    of_route = ("route", *(float(route_tuning[name]) for name in ("I_T", "c_T", "d_T")))
-    found: dict[str, BogieAbsorber | None] = {"none": None}
-    for name, inertia, c_T, d_T in [*zip(*columns, strict=True), of_route]:
-        if np.isfinite(c_T):
-            design = absorber_of(line, c_T, d_T)
-            found[str(name)] = design.model_copy(update={"I_T": float(inertia)})
-    return found
 
 
 def laws_of(cfg: Mapping[str, Any]) -> dict[str, Wearing]:
