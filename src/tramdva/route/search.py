@@ -98,7 +98,9 @@ def damping(inertia: float, c_T: float, loss_factor: float) -> float:
     return loss_factor * np.sqrt(c_T * inertia)
 
 
-def at_temperatures(inertia: float, c_T: float, loss_factor: float, material: Material):
+def at_temperatures(
+    inertia: float, c_T: float, loss_factor: float, material: Material
+) -> np.ndarray:
     """Stiffness and damping (3, 2) of an absorber of a material at `TEMPERATURES`."""
     shares = (
         (material.stiffness_cold, material.loss_cold), (1.0, 1.0),
