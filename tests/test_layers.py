@@ -73,7 +73,7 @@ BUDGET = {
     "preflight": 27,
     "growth_band": 30,
     "curving_equilibrium": 25,
-    "bogie_modes": 25,
+    "bogie_modes": 29,
     "curve_entry": 26,
     "bogie_linearisation": 28,
     "bogie_simulation": 21,
@@ -81,7 +81,7 @@ BUDGET = {
     "evolution_tendency": 26,
     "tendency_maps": 37,
     "wheelset_designs": 7,
-    "bogie_designs": 37,
+    "bogie_designs": 38,
     "robustness_sample": 37,
     "robust_tuning": 35,
 }
