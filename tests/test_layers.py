@@ -74,7 +74,7 @@ BUDGET = {
     "preflight": 27,
     "growth_band": 30,
     "curving_equilibrium": 25,
-    "bogie_modes": 25,
+    "bogie_modes": 29,
     "curve_entry": 26,
     "bogie_linearisation": 28,
     "bogie_simulation": 21,

@@ -253,20 +253,8 @@ def with_absorbers(bare: Motion, inertia: float, c_T: float, d_T: float) -> np.n
 
     Masses across the direction take part by their inertia, -m y'' on their places.
     """
-    pair = bare.eigenvalue.imag > 0.0
-    rate, place, forcing = _real(bare, pair)
+    rate, along, along_speed, forcing = with_masses(bare, inertia)
     n, count = rate.shape[0], ABSORBERS
-    speed = place @ rate
-    if place.shape[0] > count:
-        across, hung = place[count:], forcing[:, count:]
-        # f = -m (C R^2 x + C R F f + C R F_4 f_4)
-        gain = across @ rate @ forcing
-        inverse = np.linalg.inv(np.eye(len(across)) + inertia * gain[:, count:])
-        rate = rate - inertia * hung @ inverse @ across @ rate @ rate
-        forcing = forcing[:, :count] - inertia * hung @ inverse @ gain[:, :count]
-    else:
-        forcing = forcing[:, :count]
-    along, along_speed = place[:count], speed[:count]
     relative = np.hstack([-along, np.eye(count), np.zeros((count, count))])
     relative_speed = np.hstack([-along_speed, np.zeros((count, count)), np.eye(count)])
     torque = c_T * relative + d_T * relative_speed
@@ -276,6 +264,29 @@ def with_absorbers(bare: Motion, inertia: float, c_T: float, d_T: float) -> np.n
     matrix[n : n + count, n + count :] = np.eye(count)
     matrix[n + count :] = -torque / inertia
     return np.linalg.eigvals(matrix)
+
+
+def with_masses(
+    bare: Motion, inertia: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Free motion x' = R x + F f in real coordinates with the absorbers' masses across, if any.
+
+    Returns
+    -------
+    R (n, n), the places (4, n) of the absorbers and their rates, F (n, 4)
+    """
+    rate, place, forcing = _real(bare, bare.eigenvalue.imag > 0.0)
+    count, speed = ABSORBERS, place @ rate
+    if place.shape[0] > count:
+        across, hung = place[count:], forcing[:, count:]
+        # f = -m (C R^2 x + C R F f + C R F_4 f_4)
+        gain = across @ rate @ forcing
+        inverse = np.linalg.inv(np.eye(len(across)) + inertia * gain[:, count:])
+        rate = rate - inertia * hung @ inverse @ across @ rate @ rate
+        forcing = forcing[:, :count] - inertia * hung @ inverse @ gain[:, :count]
+    else:
+        forcing = forcing[:, :count]
+    return rate, place[:count], speed[:count], forcing
 
 
 def _real(bare: Motion, pair: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

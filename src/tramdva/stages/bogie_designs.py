@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tramdva.bogie.absorber_growth import least_stable, seen_by_absorbers
 from tramdva.bogie.absorbers import family_of
 from tramdva.bogie.conditions import as_configured
 from tramdva.bogie.curving import linearise, oscillations
@@ -110,12 +111,10 @@ def comparison(values: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     }
 
 
-def _excitation(matrix: np.ndarray, limits: Mapping[str, float]) -> _Excitation:
-    """Least stable oscillation of a linearised vehicle with a frequency (Hz) within limits."""
-    values = oscillations(np.linalg.eigvals(matrix), (limits["min"], limits["max"]))
-    if not values.size:
+def _excitation(top: complex | None) -> _Excitation:
+    """Least stable oscillation of a linearised vehicle by its eigenvalue in 1/s."""
+    if top is None:
         return _Excitation(np.nan, np.nan, "no_oscillation")
-    top = values[np.argmax(values.real)]
     kind = "stable" if top.real < 0.0 else "self_excited"
     return _Excitation(float(top.real), float(top.imag / (2.0 * np.pi)), kind)
 
@@ -123,7 +122,9 @@ def _excitation(matrix: np.ndarray, limits: Mapping[str, float]) -> _Excitation:
 def _of_run(run: Running, limits: Mapping[str, float]) -> _Excitation:
     if run.equilibrium.status != "converged":
         return _Excitation(np.nan, np.nan, "no_equilibrium")
-    return _excitation(linearise(run.curve, run.equilibrium.state).matrix, limits)
+    matrix = linearise(run.curve, run.equilibrium.state).matrix
+    values = oscillations(np.linalg.eigvals(matrix), (limits["min"], limits["max"]))
+    return _excitation(values[np.argmax(values.real)] if values.size else None)
 
 
 def _none(operating: Running, quiet: Running, limits: Mapping[str, float]) -> dict[str, Any]:
@@ -145,9 +146,8 @@ def _over_designs(
     if known.equilibrium.status == "converged":
         run = changed(line, design, known)
         if run.equilibrium.status == "converged":
-            family = family_of(design, run)
-            members = (family.member(c, d)[1] for d in d_T for c in c_T)
-            found = [_excitation(linear.matrix, limits) for linear in members]
+            bare = seen_by_absorbers(family_of(design, run), known, (limits["min"], limits["max"]))
+            found = [_excitation(least_stable(bare, design.I_T, c, d)) for d in d_T for c in c_T]
     shape = d_T.size, c_T.size
     return {
         name: np.array([getattr(entry, name) for entry in found]).reshape(shape)

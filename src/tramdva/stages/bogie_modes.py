@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.bogie import modes as modal
+from tramdva.bogie.absorber_growth import least_stable, seen_by_absorbers
 from tramdva.bogie.absorbers import absorber_family
 from tramdva.bogie.modes import Modes
 from tramdva.bogie.names import ENERGY_CLASSES
@@ -83,10 +84,11 @@ def _absorber_map(cfg, line: BogieLine, none: Running, limits) -> dict[str, np.n
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
     growth = np.full((points, points), np.nan)
     if none.equilibrium.status == "converged":
-        family = absorber_family(line, none)
+        bare = seen_by_absorbers(absorber_family(line, none), none, limits)
+        inertia = line.bogie.absorber.I_T
         for i, j in np.ndindex(points, points):
-            linear = family.member(c_T[j], d_T[i])[1]
-            growth[i, j] = modal.critical_of(linear, limits).growth_rate
+            top = least_stable(bare, inertia, c_T[j], d_T[i])
+            growth[i, j] = np.nan if top is None else top.real
     return {
         "map_d_T": d_T,
         "map_c_T": c_T,
