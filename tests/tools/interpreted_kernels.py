@@ -28,6 +28,7 @@ from tramdva.contact import (
     kalker,
     polach,
     profiles,
+    shen_hedrick_elkins,
 )
 from tramdva.contact.tables import stored_tables
 from tramdva.stages import bogie_linearisation, bogie_simulation, contact_geometry, wear
@@ -110,6 +111,9 @@ def of_the_contact() -> Values:
     for creepages in ((1e-3, 0.0, 0.0), (0.0, 5e-2, 0.5), (0.0, 0.0, 0.0)):
         found[f"polach {creepages}"] = polach.polach_forces(
             5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10, 1.0, 1.0
+        )
+        found[f"saturated {creepages}"] = shen_hedrick_elkins.saturated_forces(
+            5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10
         )
         if any(creepages):  # else the forces are nothing but rounding
             found[f"half_space {creepages}"] = creep_table.half_space_forces(
