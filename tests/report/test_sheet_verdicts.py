@@ -153,6 +153,32 @@ def test_what_is_worse_than_nothing_is_told_with_its_numbers(cfg) -> None:
     assert "the line's leaves 83 %, in the worst case 140 %" in said
 
 
+def tried(*enough: bool) -> dict[str, np.ndarray]:
+    """A mass that cannot do it, and others that were tried: twice, four times and between."""
+    values = OF_TUNING["worse_than_nothing"][0] | {
+        "tried_I_T": np.array([4.0, 8.0, 5.66]),
+        "tried_c_T": np.array([5e5, 1e6, 7e5]),
+        "tried_d_T": np.array([500.0, 1000.0, 700.0]),
+        "tried_nominal_factor": np.array([0.9, 0.5, 0.7]),
+        "tried_worst_factor": np.array([1.1, 0.8, 0.9]),
+    }
+    return values | {"tried_is_enough": np.array(enough)}
+
+
+@pytest.mark.parametrize(
+    ("enough", "said"),
+    [
+        ((False, True, False), "8.00 kg m² could: c_T = 1.00·10⁶ N m/rad, d_T = 1000 N m s/rad"),
+        ((False, True, True), "5.66 kg m² could: c_T = 7.00·10⁵ N m/rad, d_T = 700 N m s/rad"),
+        ((False, False, False), "No mass up to 8.00 kg m² could: another place or direction"),
+    ],
+)
+def test_the_mass_that_could_do_it_is_told(cfg, enough, said: str) -> None:
+    assert said in sheet_verdicts.recommendation(cfg, tried(*enough))
+    alone = sheet_verdicts.recommendation(cfg, OF_TUNING["self_excited"][0])
+    assert "A larger mass, or another place or direction, may." in alone
+
+
 def test_vibrating_where_nothing_helps_is_not_held_against_an_absorber() -> None:
     values = tuned()
     noisy = int(np.flatnonzero(values["growth_rate"][0, :, 1] > 0.0)[0])

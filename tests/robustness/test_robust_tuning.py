@@ -16,7 +16,7 @@ from tramdva.evolution.tendency import (
     linear_wear_response,
     wear_sensitivity,
 )
-from tramdva.robustness import criterion
+from tramdva.robustness import criterion, larger_mass
 from tramdva.robustness.criterion import Criterion, Fleet
 from tramdva.robustness.sample import assembled, cases, ranges, stored_ports
 from tramdva.stages import contact_geometry, robust_tuning, robustness_sample
@@ -199,6 +199,39 @@ def test_tolerance_ends_where_the_factor_exceeds_its_share():
     narrow = criterion.tolerance(restless, best, 0.1, c_T, d_T, [0])
     assert narrow[0, 1] == pytest.approx(end, rel=1e-3)
     assert narrow[0, 0] == pytest.approx(band[0, 0], rel=1e-3)
+
+
+def test_the_mass_that_can_do_it_is_found():
+    """One mass on a spring that a negative damping of the track feeds: heavier absorbers calm it.
+
+    Growth of the pair of masses by its matrix. With equal frequencies gain and loss balance at a
+    mass ratio of (2 feed)^2, to first order.
+    """
+    feed = 0.12  # damping ratio below zero
+
+    def growth(mu: float, case: int, design) -> float:
+        c, d = design
+        matrix = np.array([
+            [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0],
+            [-1.0 - c, c, 2.0 * feed - d, d], [c / mu, -c / mu, d / mu, -d / mu],
+        ])  # fmt: skip
+        return float(np.linalg.eigvals(matrix).real.max())
+
+    one = oscillator(np.linspace(0.5, 1.8, 801))
+    reference = criterion.references(one.largest(None), one.steady)
+
+    def criteria(mu: float):
+        own = Criterion(
+            one._replace(inertia=mu), reference, np.ones(1, bool), ((1.0, 1.0),),
+            lambda case, design: growth(mu, case, design),
+        )  # fmt: skip
+        return own, own
+
+    needed, least = (2.0 * feed) ** 2, 0.029
+    grid_c, grid_d = least * np.linspace(0.8, 1.1, 9), least * np.linspace(0.1, 0.5, 9)
+    found = list(larger_mass.masses_tried(criteria, least, grid_c, grid_d, [0], []))
+    assert [round(one.inertia / least, 3) for one in found] == [2.0, 4.0, 2.828]
+    assert [one.is_enough for one in found] == [one.inertia > 1.2 * needed for one in found]
 
 
 def test_references_are_never_below_the_line_as_configured():

@@ -10,6 +10,7 @@ from tramdva.robustness.spread import spread as spread_of
 from tramdva.variables.registry import STAGES
 from tramdva.variables.shared import CASE_STATUS
 
+TRIED = ("I_T", "c_T", "d_T", "nominal_factor", "worst_factor")
 KINDS = {"real": float, "flag": "U20", "truth": bool, "text": "U30"}
 
 
@@ -21,7 +22,7 @@ def tuning() -> dict[str, np.ndarray]:
     cases = len(varied)
     lengths = {"case": cases, "range": 11, "wheel": 2, "friction": 2, "design": 4, "axis": 2,
                "end": 2, "map_c_T": 5, "map_d_T": 5, "rubber_end": 4, "peak": 2,
-               "outcome": len(CASE_STATUS), "quantile": len(QUANTILES)}  # fmt: skip
+               "outcome": len(CASE_STATUS), "quantile": len(QUANTILES), "tried": 3}  # fmt: skip
     values = {
         name: np.zeros([lengths[d] for d in variable.dimensions], KINDS[variable.kind])
         for name, variable in STAGES["robust_tuning"].variables.items()
@@ -51,6 +52,7 @@ def tuning() -> dict[str, np.ndarray]:
         "map_worst_factor": np.add.outer(np.linspace(0.5, 2, 5), np.linspace(0.1, 1, 5)),
         "nominal_factor": np.array([np.nan, 0.29, 0.19, 0.27]),
         "worst_factor": np.array([np.nan, 1.1, 3.7, 0.71]),
+        **{f"tried_{name}": np.full(3, np.nan) for name in TRIED},
         "self_excited_cases": np.array([np.nan, 1.0, 34.0, 0.0]),
         "factor": np.outer([1.0, 0.6, 0.7, 0.5], spread),
         "rubber_end": np.array(["stiffness_min", "stiffness_max", "damping_min", "damping_max"]),

@@ -67,12 +67,14 @@ TUNING = {
         "No tuning: between {low:g} and {high:g} Hz no order grows in any of the conditions that "
         "were computed; against self-excitation see the map of the bogie."
     ),
-    "self_excited": ("No recommendation: with every absorber some condition vibrates by itself."),
+    "self_excited": (
+        "No recommendation: with every absorber of this mass ({I_T} {I_T_unit}) some condition "
+        "vibrates by itself. {other_mass}"
+    ),
     "worse_than_nothing": (
         "No recommendation: this mass ({I_T} {I_T_unit}) cannot do it. The best absorber that was "
         "found leaves {robust} of the growth between {low:g} and {high:g} Hz, and in some "
-        "condition is worse than none; the line's leaves {paper}. A larger mass, or another place "
-        "or direction, may."
+        "condition is worse than none; the line's leaves {paper}. {other_mass}"
     ),
     "keep_the_line's": (
         "Recommended: the line's absorber as it is. Of the growth between {low:g} and {high:g} Hz "
@@ -89,6 +91,14 @@ TUNING = {
     ),
 }
 
+OTHER_MASS = {
+    "found": (
+        "{I_T} {I_T_unit} could: c_T = {c_T}, d_T = {d_T} leave {nominal}, in the worst case "
+        "{worst}, and disturb no condition that was quiet."
+    ),
+    "none": "No mass up to {I_T} {I_T_unit} could: another place or direction may.",
+    "not_tried": "A larger mass, or another place or direction, may.",
+}
 RECOMMENDED = {"keep_the_line's": PAPER, "some_self_excited": ROBUST, "recommended": ROBUST}
 ABOVE = (
     " More than 100 % is more than the line as configured, in a condition that vibrates by itself "
@@ -226,14 +236,14 @@ def state_of_tuning(tuning: Values) -> str:
 
 
 def is_worse_than_nothing(tuning: Values, design: int) -> bool:
-    """Whether an absorber leaves more than there was, as configured or where it was quiet before.
+    """Whether an absorber leaves more than there was, or lets the line or a quiet case vibrate.
 
     A condition that vibrates by itself without absorbers is not held against one.
     """
     bare, growth = tuning["growth_rate"][NONE], tuning["growth_rate"][design]
     quiet = (bare < 0.0).all(axis=1) & tuning["counted"]
     more = tuning["factor"][design, quiet] >= 1.0
-    louder = growth[quiet, OPERATING] >= 0.0
+    louder = growth[np.append(0, np.flatnonzero(quiet)), OPERATING] >= 0.0
     all_quiet = not (bare[tuning["counted"]] >= 0.0).any()
     at_ends = all_quiet and tuning["worst_factor"][design] >= 1.0  # of the rubber's ranges
     return bool(tuning["nominal_factor"][design] >= 1.0 or more.any() or louder.any() or at_ends)
@@ -260,6 +270,27 @@ def recommendation(cfg: Config, tuning: Values) -> str:
         f"d_T = {number(tuning['d_T'][ROBUST])} {units['d_T']}",
         robust=_left(tuning, ROBUST),
         paper=_left(tuning, PAPER),
+        other_mass=of_other_masses(cfg, tuning),
+    )
+
+
+def of_other_masses(cfg: Config, tuning: Values) -> str:
+    """Tell the least mass of those tried that can do it, or that none can."""
+    units, tried = unit_names(cfg), tuning["tried_I_T"]
+    if not np.isfinite(tried).any():
+        return OTHER_MASS["not_tried"]
+    enough = np.where(tuning["tried_is_enough"], tried, np.inf)
+    if not np.isfinite(enough).any():
+        largest = number(float(np.nanmax(tried)))
+        return OTHER_MASS["none"].format(I_T=largest, I_T_unit=units["I_T"])
+    k = int(np.argmin(enough))
+    return OTHER_MASS["found"].format(
+        I_T=number(float(tried[k])),
+        I_T_unit=units["I_T"],
+        c_T=f"{number(float(tuning['tried_c_T'][k]))} {units['c_T']}",
+        d_T=f"{number(float(tuning['tried_d_T'][k]))} {units['d_T']}",
+        nominal=percent(tuning["tried_nominal_factor"][k]),
+        worst=percent(tuning["tried_worst_factor"][k]),
     )
 
 

@@ -12,12 +12,14 @@ from tramdva.robustness.criterion import (
     Criterion,
     Design,
     Fleet,
+    Optimum,
     Shares,
     fleet,
     optimum,
     references,
     tolerance,
 )
+from tramdva.robustness.larger_mass import TRIED, Tried, is_of_use, masses_tried
 from tramdva.robustness.sample import absorber_shares, assembled, stored_motion
 from tramdva.robustness.spread import QUANTILES, spread
 from tramdva.variables.arrays import without_numbers
@@ -33,6 +35,9 @@ FORCED, OPERATING = range(2)
 LOADS = (
     "carrier_amplitude", "stroke_amplitude", "torque_amplitude", "dissipated_power",
     "load_frequency", "load_order",
+)  # fmt: skip
+TRIED_VALUES = (
+    "tried_I_T", "tried_c_T", "tried_d_T", "tried_nominal_factor", "tried_worst_factor",
 )  # fmt: skip
 # A search asks for signs of growth rates: those of the modes below this multiple of the frequencies
 # that count are enough (they differ by less than 0.1 1/s), unless they are near zero.
@@ -101,6 +106,7 @@ def compute(
         **_peak_factors(cfg, sample, whole, designs),
         "growth_rate": growth,
         **_loads(cfg, sample, robust.fleet, designs),
+        **_heavier(cfg, sample, (nominal, robust), at_all, suspects[1]),
     }
     # A self-excited bogie answers no wave steadily.
     for name in ("factor", "peak_factor", *LOADS):
@@ -132,6 +138,35 @@ def _criteria(
         Criterion(near.only([0]), alone, everywhere[:1], corners[:1], growth),
         Criterion(near, reference, everywhere, corners, growth),
     )
+
+
+def _heavier(
+    cfg, sample, criteria: tuple[Criterion, Criterion], best: Optimum, suspects: Sequence[int]
+) -> dict[str, np.ndarray]:
+    """Masses that were tried where no absorber of the configured mass is of use."""
+    absorber, tuning = cfg["bogie"]["absorber"], cfg["study"]
+    axes = [
+        np.linspace(tuning[name]["min"], tuning[name]["max"], cfg["numerics"]["map_points"])
+        for name in ("c_T", "d_T")
+    ]
+    nominal, robust = criteria
+    quiet = np.flatnonzero((sample["bare_growth_rate"][robust.fleet.case] < 0.0).all(axis=1))
+
+    def of_inertia(inertia: float) -> tuple[Criterion, Criterion]:
+        own = {**cfg, "bogie": {**cfg["bogie"], "absorber": {**absorber, "I_T": inertia}}}
+        return _criteria(own, sample, fleet(sample, inertia))
+
+    found: list[Tried] = []
+    if robust.grows and not is_of_use(nominal, robust, best, quiet):
+        found = list(masses_tried(of_inertia, absorber["I_T"], *axes, suspects, quiet))
+    rows = np.full((5, TRIED), np.nan)
+    for k, one in enumerate(found):
+        factors = one.nominal_factor, one.best.factor
+        rows[:, k] = one.inertia, *one.best.design, *factors
+    return {
+        **dict(zip(TRIED_VALUES, rows, strict=True)),
+        "tried_is_enough": np.array([*(one.is_enough for one in found), *[False] * TRIED][:TRIED]),
+    }
 
 
 def _corners(study: Mapping[str, Any]) -> list[Shares]:
@@ -331,6 +366,7 @@ def _without_nominal(cfg, sample, c_points: int, d_points: int) -> dict[str, np.
         "end": 2,
         "outcome": len(CASE_STATUS),
         "quantile": len(QUANTILES),
+        "tried": TRIED,
     }
     missing = (np.nan, np.nan)
     return {

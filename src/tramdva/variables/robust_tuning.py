@@ -48,6 +48,13 @@ VARIABLES = Stage(
         "torque_amplitude": real("design case", "N m", "torque on the mounting (N)"),
         "dissipated_power": real("design case", "W", "mean power that one absorber dissipates"),
         "load_frequency": real("design case", "Hz", "frequency of the largest torque"),
+        # Of other masses, where none of the configured one is of use; NaN where none was tried.
+        "tried_I_T": real("tried", "kg m^2", "inertia that was tried (kg if it translates)"),
+        "tried_c_T": real("tried", "N m/rad", "stiffness of its robust optimum"),
+        "tried_d_T": real("tried", "N m s/rad", "damping of its robust optimum"),
+        "tried_nominal_factor": real("tried", "1", "its factor of the line as configured"),
+        "tried_worst_factor": real("tried", "1", "its largest factor of the cases counted"),
+        "tried_is_enough": truth("tried", "whether it leaves less than there was, and is quiet"),
         "outcome": text("outcome", "status that an equilibrium can have"),
         "outcome_cases": real("outcome", "1", "cases of this status"),
         "sampled_cases": real("", "1", "cases drawn from all ranges at once"),
