@@ -88,7 +88,7 @@ BUDGET = {
     "route_tuning": 50,
     "route_response": 44,
     "route_remedies": 53,
-    "polygon_growth": 47,
+    "polygon_growth": 8,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 

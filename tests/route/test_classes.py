@@ -5,10 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from tramdva.route.classes import OWN_WHEELS, classes_of, lap_length, places_of_wheels
+from tramdva.route.classes import OWN_WHEELS, cases_of, classes_of, lap_length, places_of_wheels
 from tramdva.route.parameters import RouteSection
 from tramdva.route.plan import plan
-from tramdva.route.scaling import cases_of
 
 
 def section(turn="left", radius=25.0, length=40.0, **more) -> RouteSection:

@@ -13,10 +13,10 @@ import numpy as np
 from tramdva.bogie.conditions import Conditions, under
 from tramdva.bogie.tram import BogieLine
 from tramdva.evolution.tendency import Wearing
-from tramdva.route.classes import RunningClass
+from tramdva.route.classes import Case, RunningClass
 from tramdva.route.parameters import RouteSection
 from tramdva.route.response import ClassRun, Middle, at_mean_speed, own_wear
-from tramdva.route.scaling import Case, Scales, revolutions
+from tramdva.route.scaling import Scales, revolutions
 from tramdva.route.speeds import intervals, speed_points
 
 LUBRICATED = 0.15  # of the dry wear of a flange; lubrication divides it by five to ten

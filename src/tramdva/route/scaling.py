@@ -10,41 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tramdva.route.classes import OWN_WHEELS, Passage, lap_length, places_of_wheels
+from tramdva.route.classes import OWN_WHEELS, Case
 from tramdva.route.parameters import MeasuredWear
 from tramdva.route.response import ClassRun, mean_depth
 
 PER_1000_KM = 1e6  # m
 METRES = 1e-4  # per 1000 km, of mm per 10 000 km
-
-
-class Case(NamedTuple):
-    """A class as the vehicle meets it.
-
-    running : place among the classes
-    turn : left, right or straight, as the tram runs; leading : end that leads, A or B
-    share : of the distance
-    """
-
-    running: int
-    turn: str
-    leading: str
-    share: float
-
-    @property
-    def places(self) -> list[int]:
-        """Places (4,) in `names.WHEELS` of the vehicle's own wheels."""
-        return places_of_wheels(self.turn, self.leading)
-
-
-def cases_of(passages: Sequence[Passage]) -> list[Case]:
-    """Cases of a lap in the order in which they are met first."""
-    length = lap_length(passages)
-    share: dict[tuple[int, str, str], float] = {}
-    for one in passages:
-        met = one.running, one.turn, one.leading
-        share[met] = share.get(met, 0.0) + one.length / length
-    return [Case(*met, part) for met, part in share.items()]
 
 
 class Scales(NamedTuple):

@@ -8,16 +8,17 @@ import numpy as np
 from tramdva.bogie.names import WHEELS
 from tramdva.bogie.tram import BogieLine
 from tramdva.evolution.tendency import Wearing, excitation_frequency
-from tramdva.route.classes import RunningClass, classes_of
+from tramdva.route.classes import RunningClass, cases_of, classes_of
 from tramdva.route.growth import initial_amplitudes, wheel_life
 from tramdva.route.parameters import InitialSpectrum, MeasuredWear
 from tramdva.route.remedies import Conditioned, growth, remedies, worst_sections
 from tramdva.route.response import ClassRun, run_classes
-from tramdva.route.scaling import METRES, Scales, cases_of, scales
+from tramdva.route.scaling import METRES, Scales, scales
 from tramdva.route.scatter import in_phase_growth, own_growth
 from tramdva.route.search import energy_distance
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_sections import Lap, designs_of, lap_of
+from tramdva.stages.route_designs import designs_of
+from tramdva.stages.route_sections import Lap, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_remedies import VARIABLES
 from tramdva.wear.chart import METHODS

@@ -15,7 +15,8 @@ from tramdva.route.response import SURFACES, own_wear, run_classes
 from tramdva.route.scaling import depths, revolutions, scales
 from tramdva.route.speeds import halved
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_sections import Lap, case_name, designs_of, lap_of
+from tramdva.stages.route_designs import designs_of
+from tramdva.stages.route_sections import Lap, case_name, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_response import VARIABLES
 from tramdva.wear.chart import METHODS

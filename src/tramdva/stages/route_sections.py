@@ -1,16 +1,17 @@
-"""From the section ``route`` of the configuration to sections, classes, cases and absorbers."""
+"""From the section ``route`` of the configuration to sections, classes and cases."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from tramdva.bogie.parameters import BogieAbsorber
-from tramdva.bogie.tram import BogieLine
-from tramdva.bogie.tram import absorber as absorber_of
-from tramdva.route.classes import Passage, RunningClass, classes_of, lap_length
+from tramdva.route.classes import (
+    Case,
+    Passage,
+    RunningClass,
+    cases_of,
+    classes_of,
+    lap_length,
+)
 from tramdva.route.parameters import RouteSection
-from tramdva.route.scaling import Case, cases_of
 from tramdva.route.sections import read_sections
 
 
@@ -62,19 +63,3 @@ def case_name(case: Case, running: RunningClass) -> str:
         where = f"{1.0 / running.curvature:g} m {case.turn}"
     cant = f", cant {1e3 * running.cant:g} mm" if running.cant else ""
     return f"{where}, {3.6 * running.speed:g} km/h{cant}, {case.leading} leads"
-
-
-def designs_of(
-    line: BogieLine,
-    robust_tuning: Mapping[str, np.ndarray],
-    route_tuning: Mapping[str, np.ndarray],
-) -> dict[str, BogieAbsorber | None]:
-    """Absorbers by name: none, the line's and those that the searches found."""
-    columns = (robust_tuning[name] for name in ("design", "I_T", "c_T", "d_T"))
-    of_route = ("route", *(float(route_tuning[name]) for name in ("I_T", "c_T", "d_T")))
-    found: dict[str, BogieAbsorber | None] = {"none": None}
-    for name, inertia, c_T, d_T in [*zip(*columns, strict=True), of_route]:
-        if np.isfinite(c_T):
-            design = absorber_of(line, c_T, d_T)
-            found[str(name)] = design.model_copy(update={"I_T": float(inertia)})
-    return found
