@@ -143,6 +143,8 @@ FIGURES = {
             "bogie_modes",
             "tendency_maps",
             "robust_tuning",
+            "polygon_growth",
+            "route_remedies",
             "basic_model",
         ],
         "Design sheet",

@@ -1,4 +1,4 @@
-"""Design sheet of the absorber: a page of the report and two pages of PDF."""
+"""Design sheet of the absorber: a page of the report and three pages of PDF."""
 
 import io
 import textwrap
@@ -55,6 +55,8 @@ def main(
     tendency_maps: str,
     robust_tuning: str,
     curving_equilibrium: str,
+    polygon_growth: str,
+    route_remedies: str,
     basic_model: str | None = None,
 ) -> None:
     """Write the sheet as PDF and as a page."""
@@ -67,12 +69,14 @@ def main(
         results.read(bogie_modes),
         results.read(tendency_maps),
         results.read(curving_equilibrium),
+        results.read(polygon_growth),
+        results.read(route_remedies),
     )
     with figures.style(STYLE):
         with atomically(pdf) as part:
             about = {"Title": content.title, "CreationDate": None}
             with PdfPages(part, metadata=about) as document:
-                for page in (first_page(content), second_page(content, tuning, cfg)):
+                for page in pages(content, tuning, cfg):
                     document.savefig(page)
         picture = svg(pictures(tuning, cfg))
     with atomically(html) as part:
@@ -141,26 +145,41 @@ def rule(figure: Figure, y: float, last: float) -> None:
     figure.add_artist(line)
 
 
+def pages(content: Sheet, tuning: dict[str, np.ndarray], cfg: dict) -> list[Figure]:
+    """Draw the pages, each with its number."""
+    drawn = [first_page(content), second_page(content, tuning, cfg), last_page(content)]
+    for number, figure in enumerate(drawn, start=1):
+        words = f"{number} of {len(drawn)}"
+        write(figure, (WIDTH - MARGIN, HEIGHT - 10.0), words, ha="right")
+    return drawn
+
+
 def first_page(content: Sheet) -> Figure:
-    """Draw verdicts, the absorber, peaks and orders."""
+    """Draw verdicts, kilometres, the steady running and the absorber."""
     figure = paper()
     write(figure, (MARGIN, 14.0), content.title, fontsize=13, fontweight="bold")
     y = paragraphs(figure, 24.0, content.verdicts)
-    for part in (content.running, content.absorber, content.peaks, content.orders):
+    for part in (content.kilometres, content.running, content.absorber):
         y = table(figure, y + 1.0, part)
-    write(figure, (WIDTH - MARGIN, HEIGHT - 10.0), "1 of 2", ha="right")
     return figure
 
 
 def second_page(content: Sheet, tuning: dict[str, np.ndarray], cfg: dict) -> Figure:
-    """Draw the distributions, the ranges and the notes."""
+    """Draw the distributions, peaks and orders."""
     figure = paper()
     write(figure, (MARGIN, 12.0), "What is left under the ranges", fontsize=10, fontweight="bold")
     draw(figure, tuning, cfg, bottom=1.0 - 150.0 / HEIGHT, top=1.0 - 25.0 / HEIGHT)
-    y = table(figure, 166.0, content.ranges)
+    y = table(figure, 166.0, content.peaks)
+    table(figure, y + 1.0, content.orders)
+    return figure
+
+
+def last_page(content: Sheet) -> Figure:
+    """Draw the ranges and the notes."""
+    figure = paper()
+    y = table(figure, 14.0, content.ranges)
     write(figure, (MARGIN, y), "Assumptions, status and limits", fontsize=8, fontweight="bold")
     paragraphs(figure, y + 5.0, content.notes, size=6.8)
-    write(figure, (WIDTH - MARGIN, HEIGHT - 10.0), "2 of 2", ha="right")
     return figure
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from figure_scripts import STYLE, script, texts
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from sheet_values import content, curving, maps, modes, tuning, without
+from sheet_values import content, curving, growth, maps, modes, remedies, tuning, without
 
 from tramdva.configuration.reading import load
 from tramdva.configuration.uses import used_values
@@ -153,7 +153,8 @@ def test_letters_of_a_label_mean_nothing(cfg):
 
 def test_same_results_give_the_same_files(cfg, tmp_path, monkeypatch):
     files = {"tuning": tuning(), "modes": modes(), "maps": maps(), "curving": curving(),
-             "map": {"baseline_critical_B": np.array(0.68)}}  # fmt: skip
+             "map": {"baseline_critical_B": np.array(0.68)},
+             "growth": growth(), "remedies": remedies()}  # fmt: skip
     monkeypatch.setattr(DESIGN.results, "read", files.__getitem__)
     made = []
     for folder in ("a", "b"):
@@ -161,18 +162,18 @@ def test_same_results_give_the_same_files(cfg, tmp_path, monkeypatch):
         DESIGN.main(
             pdf=str(pdf), html=str(html), code="", cfg=cfg, stability_map="map",
             bogie_modes="modes", tendency_maps="maps", robust_tuning="tuning",
-            curving_equilibrium="curving",
+            curving_equilibrium="curving", polygon_growth="growth", route_remedies="remedies",
         )  # fmt: skip
         made.append((pdf.read_bytes(), html.read_bytes()))
     assert made[0] == made[1]
-    assert len(re.findall(rb"/Type /Page\b", made[0][0])) == 2
+    assert len(re.findall(rb"/Type /Page\b", made[0][0])) == 3
 
 
 def test_texts_stay_on_the_pages(cfg):
     values = tuning()
     found = content(cfg, values)
     with figures.style(STYLE):
-        for page in (DESIGN.first_page(found), DESIGN.second_page(found, values, cfg)):
+        for page in DESIGN.pages(found, values, cfg):
             page.draw_without_rendering()
             renderer = FigureCanvasAgg(page).get_renderer()
             for text in page.texts:

@@ -128,6 +128,39 @@ def maps(sign: float = 1.0) -> dict[str, np.ndarray]:
     return values | growing_orders(values, wheel_radius=0.3)
 
 
+def growth(status: str = "reached") -> dict[str, np.ndarray]:
+    """Kilometres without and with absorbers under two laws."""
+    km = np.array([[4200.0, 4400.0], [5400.0, 5300.0]])
+    known = status == "reached"
+    return {
+        "wear_law": np.array(["smoothed", "constant"]),
+        "shown_wear_law": np.array("smoothed"),
+        "absorber": np.array(["none", "paper"]),
+        "turning_distance": km if known else np.full((2, 2), np.nan),
+        "turning_status": np.full((2, 2), status, dtype="U20"),
+        "hindrance": np.array(["" if known else "self_excited: 25 m left", ""]),
+        "fastest_growth": np.full((2, 2, 4), 1.2),
+        "fastest_order": np.full((2, 2, 4), 57.0),
+        "fastest_section": np.full((2, 2, 4), "station square", dtype="U20"),
+        "limit": np.array(3e-4),
+        "distance": np.array([0.0, 1e5]),
+        "longest_absorber": np.array(["paper", "none"] if known else ["", ""], dtype="U20"),
+        "laws_agree": np.array(False),
+        "wheel_life": 20.0 * km,
+    }
+
+
+def remedies() -> dict[str, np.ndarray]:
+    """A measure that helps and one that does not."""
+    return {
+        "bare_status": np.array("computed"),
+        "bare_wheel_life": np.array(8e4),
+        "remedy": np.array(["lubricated", "harder_wheels"]),
+        "remedy_section": np.array(["old town", ""]),
+        "remedy_wheel_life": np.array([1.2e5, 5.6e4]),
+    }
+
+
 def content(cfg, values, critical: float = 0.68, **others) -> design_sheet.Sheet:
     return design_sheet.sheet(
         cfg,
@@ -136,4 +169,6 @@ def content(cfg, values, critical: float = 0.68, **others) -> design_sheet.Sheet
         others.get("modes", modes()),
         others.get("maps", maps()),
         others.get("curving", curving()),
+        others.get("growth", growth()),
+        others.get("remedies", remedies()),
     )

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tramdva.report.sheet_kilometres import kilometre_rows, kilometres
 from tramdva.report.sheet_numbers import DASH, in_ranges, number, percent, place_of
 from tramdva.report.sheet_verdicts import (
     KMH,
@@ -63,6 +64,7 @@ class Sheet(NamedTuple):
 
     title: str
     verdicts: list[str]
+    kilometres: Table
     running: Table
     absorber: Table
     peaks: Table
@@ -78,11 +80,19 @@ def sheet(
     bogie_modes: Values,
     tendency_maps: Values,
     curving_equilibrium: Values,
+    polygon_growth: Values,
+    route_remedies: Values,
 ) -> Sheet:
     """Contents of the design sheet from the values of the line and the result files."""
     return Sheet(
         f"Design sheet: {cfg['label']}",
-        verdicts(cfg, tuning, stability_map, bogie_modes, tendency_maps),
+        [
+            *kilometres(polygon_growth, route_remedies),
+            *verdicts(cfg, tuning, stability_map, bogie_modes, tendency_maps),
+        ],
+        Table(
+            "Distance between turnings on the route, by law of wear", kilometre_rows(polygon_growth)
+        ),
         running_table(curving_equilibrium, bogie_modes),
         absorber_table(cfg, tuning),
         peak_table(tuning),

@@ -59,7 +59,9 @@ def page(content: Sheet, picture: bytes) -> str:
     return PAGE.format(
         title=html.escape(content.title),
         verdicts=items(content.verdicts),
-        tables=tables(content.running, content.absorber, content.peaks, content.orders),
+        tables=tables(
+            content.kilometres, content.running, content.absorber, content.peaks, content.orders
+        ),
         more=tables(content.ranges),
         notes=items(content.notes),
         picture=base64.b64encode(picture).decode(),

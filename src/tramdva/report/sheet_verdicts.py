@@ -18,7 +18,7 @@ Config = Mapping[str, Any]  # values of the configuration
 Values = Mapping[str, np.ndarray]  # variables of a result file, SI units
 KMH = 3.6
 NONE, PAPER, NOMINAL, ROBUST = range(4)
-NAMES = tuple(NAMED.values())
+NAMES = tuple(NAMED[name] for name in ("none", "paper", "nominal", "robust"))
 FORCED, OPERATING = range(2)  # of the friction in growth rates
 
 BOGIE = {
