@@ -103,7 +103,7 @@ def test_self_excitation_without_growing_orders_is_told(cfg):
 
 def test_bogie_without_steady_running_is_told(cfg):
     found = content(cfg, tuning(), modes=modes("wheel_lifted"))
-    assert "no steady running was found (wheel lifted)" in found.verdicts[1]
+    assert any("no steady running was found (wheel lifted)" in line for line in found.verdicts)
 
 
 def test_orders_that_grow_are_those_of_the_tendency(cfg):

@@ -17,6 +17,7 @@ from tramdva.report.sheet_verdicts import (
     ROBUST,
     Config,
     Values,
+    state_of_orders,
     unit_names,
     verdicts,
     worst,
@@ -86,10 +87,11 @@ def sheet(
     """Contents of the design sheet from the values of the line and the result files."""
     return Sheet(
         f"Design sheet: {cfg['label']}",
-        [
-            *kilometres(polygon_growth, route_remedies),
-            *verdicts(cfg, tuning, stability_map, bogie_modes, tendency_maps),
-        ],
+        first_lines(
+            kilometres(polygon_growth, route_remedies),
+            verdicts(cfg, tuning, stability_map, bogie_modes, tendency_maps),
+            mind=state_of_orders(cfg, tendency_maps) == "outside",
+        ),
         Table(
             "Distance between turnings on the route, by law of wear", kilometre_rows(polygon_growth)
         ),
@@ -100,6 +102,12 @@ def sheet(
         range_table(cfg, tuning),
         notes(cfg, tuning),
     )
+
+
+def first_lines(of_route: list[str], others: list[str], mind: bool) -> list[str]:
+    """Kilometres first, but behind the warning that the sheet is not about what grows fastest."""
+    warning = others[:1] if mind else []
+    return [*warning, *of_route, *others[len(warning) :]]
 
 
 def running_table(curving: Values, modes: Values) -> Table:
