@@ -74,6 +74,52 @@ def test_flank_takes_over_smoothly_as_the_curve_gets_sharper(sweep, sharp_line):
     assert np.all((attack > chord) & (attack < chord + play))
 
 
+def quantities(line, radius):
+    """Angles of attack, wheel loads, and forces, angles and slips of the contacts that carry."""
+    run = run_through(line._replace(track=line.track.model_copy(update={"radius": radius})))
+    assert run.equilibrium.status == "converged"
+    results = run.equilibrium.results
+    carrying = results[..., patch.NORMAL_FORCE] > 0.0
+    columns = [patch.NORMAL_FORCE, patch.CONTACT_ANGLE, patch.SLIP_VELOCITY]
+    loads = np.array(list(wheel_loads(run.equilibrium).values()))
+    contacts = np.where(carrying[..., None], results[..., columns], 0.0)
+    return np.concatenate([angle_of_attack(run.curve, run.equilibrium), loads, contacts.ravel()])
+
+
+@pytest.mark.parametrize("radius", [24.0, 20.0, 17.5])
+def test_between_the_events_every_quantity_is_smooth_over_the_radius(sharp_line, radius):
+    """Half the distance, half the difference; the events are flank (22 m) and tread (15.2 m)."""
+    far, near = (
+        quantities(sharp_line, radius + h) - quantities(sharp_line, radius - h)
+        for h in (0.05, 0.025)
+    )
+    share = 0.1 / radius  # change of the radius; some quantities have an extremum nearby
+    changing = np.abs(far) > 0.1 * share * np.abs(quantities(sharp_line, radius))
+    assert changing.sum() >= 6
+    np.testing.assert_allclose(far[changing], 2.0 * near[changing], rtol=0.1)
+
+
+@pytest.mark.parametrize(("zone", "radii"), [(2, (23.0, 21.5)), (0, (15.6, 15.0))])
+def test_a_second_contact_begins_without_force(sharp_line, zone, radii):
+    """Flank or tread of the front outer wheel: no load jumps where it comes in."""
+
+    def carries(radius):
+        run = run_through(
+            sharp_line._replace(track=sharp_line.track.model_copy(update={"radius": radius}))
+        )
+        return run.equilibrium.results[0, zone, patch.NORMAL_FORCE]
+
+    free, touching = radii
+    assert carries(free) == 0.0 < carries(touching)
+    for _ in range(9):
+        middle = 0.5 * (free + touching)
+        free, touching = (free, middle) if carries(middle) > 0.0 else (middle, touching)
+    beginning = carries(touching)
+    assert 0.0 < beginning < 20.0  # N, beside 40 kN
+    before, after = (quantities(sharp_line, radius)[:6] for radius in (free, touching))
+    np.testing.assert_allclose(after, before, rtol=1e-3)
+
+
 def test_only_the_front_outer_wheel_touches_twice(sweep):
     """The flanges of the inner wheels are millimetres from their rails: no force may come there."""
     for run in sweep:

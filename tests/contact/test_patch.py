@@ -159,13 +159,16 @@ def test_out_of_roundness_acts_as_a_lower_wheel(tram_tables):
     assert_allclose(raised[2][patch.PENETRATION], lowered[2][patch.PENETRATION], rtol=1e-9)
 
 
-def test_polach_has_the_same_interface(tram_tables):
+def test_polach_and_the_cubic_have_the_same_interface(tram_tables):
     law = patch.contact_law(0.35, 0.36, 0.7, method="polach")
     position = loaded(tram_tables[0], 35e3)
     motion = {"position": position, "velocity": (SPEED, 0.16, 0.0)}
     fast = contact(tram_tables[0], **motion)[2]
     polach = contact(tram_tables[0], law=law, **motion)[2]
     assert_allclose(polach[patch.LATERAL_FORCE], fast[patch.LATERAL_FORCE], rtol=0.05)
+    saturated = patch.contact_law(0.35, 0.36, 0.7, method="shen_hedrick_elkins")
+    cubic = contact(tram_tables[0], law=saturated, **motion)[2]
+    assert_allclose(cubic[patch.LATERAL_FORCE], fast[patch.LATERAL_FORCE], rtol=0.05)
     with pytest.raises(ValueError, match="kalker"):
         patch.contact_law(0.35, 0.36, 0.7, method="kalker")
 

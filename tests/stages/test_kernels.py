@@ -60,6 +60,8 @@ def test_interpreted_kernels_obey_the_known_laws(
     assert found["pressure"] == pytest.approx(1.5 * 35e3 / (np.pi * 5e-3 * 3e-3), rel=1e-12)
     assert found["polach (0.0, 0.0, 0.0)"] == pytest.approx((0.0, 0.0, 0.0))
     assert found["polach (0.001, 0.0, 0.0)"][0] < 0.0  # against the creepage
+    assert found["saturated (0.0, 0.0, 0.0)"] == pytest.approx((0.0, 0.0, 0.0))
+    assert found["saturated (0.001, 0.0, 0.0)"][0] < 0.0
     assert found["half_space (0.001, 0.0, 0.0)"][0] < 0.0
     for method in ("chart", "smoothed", "constant"):
         assert (found[f"wear {method}"]["wear_depth"] >= 0.0).all()

@@ -108,6 +108,9 @@ def of_the_contact() -> Values:
         found[f"polach {creepages}"] = polach.polach_forces(
             5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10, 1.0, 1.0
         )
+        found[f"saturated {creepages}"] = kalker.saturated_forces(
+            5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10
+        )
         if any(creepages):  # else the forces are nothing but rounding
             found[f"half_space {creepages}"] = creep_table.half_space_forces(
                 5e-3, 3e-3, 35e3, 0.3, *creepages, 8.2e10, creep_table.creep_table(0.27)

@@ -25,8 +25,13 @@ from tramdva.contact import (
 from tramdva.contact.creep_force import friction_coefficient
 
 NO_CONTACT, CONTACT, INVALID = 0, 1, 2
-FASTSIM, POLACH, HALF_SPACE = 0, 1, 2
-METHODS = {"fastsim": FASTSIM, "polach": POLACH, "half_space": HALF_SPACE}
+FASTSIM, POLACH, HALF_SPACE, SATURATED = 0, 1, 2, 3
+METHODS = {
+    "fastsim": FASTSIM,
+    "polach": POLACH,
+    "half_space": HALF_SPACE,
+    "shen_hedrick_elkins": SATURATED,
+}
 
 (
     STATUS, NORMAL_FORCE, LONGITUDINAL_FORCE, LATERAL_FORCE, SPIN_MOMENT, PENETRATION,
@@ -45,7 +50,7 @@ class ContactLaw(NamedTuple):
     modulus : E* in Pa; shear_modulus : Pa
     friction : (mu_0, A, B in s/m); polach : (k_A, k_S)
     damping_time : s/m of `hertz.damped_normal_force`
-    method : FASTSIM, POLACH or HALF_SPACE
+    method : FASTSIM, POLACH, HALF_SPACE or SATURATED
     grid : PatchGrid of FASTSIM
     creep_table : CreepTable of HALF_SPACE
     """
@@ -83,7 +88,7 @@ def contact_law(
     friction_maximum, friction_ratio : mu_0 and A, dimensionless; friction_decrease : B in s/m
     youngs_modulus : Pa; poisson_ratio : both bodies
     cells_along, strips, bound : see `fastsim.patch_grid`
-    method : 'fastsim', 'polach' or 'half_space'
+    method : 'fastsim', 'polach', 'half_space' or 'shen_hedrick_elkins'
     reduction_adhesion, reduction_slip : Polach's k_A and k_S
     damping_time : s/m, see `hertz.damped_normal_force`
     """
@@ -142,8 +147,8 @@ def tangential_forces(
 ):
     """Longitudinal force, lateral force (N) and spin moment (N m) by the chosen method.
 
-    Polach's formula and the table know no patch that is turned: they leave the shear out. A patch
-    that is longer or wider than the table knows has no forces: NaN.
+    FASTSIM alone knows a patch that is turned; the others leave the shear out. A patch that is
+    longer or wider than the table knows has no forces: NaN.
     """
     a, b = semi_axis_longitudinal, semi_axis_lateral
     if law.method == HALF_SPACE:
@@ -152,6 +157,12 @@ def tangential_forces(
         return creep_table.half_space_forces(
             a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
             law.shear_modulus, law.creep_table,
+        )  # fmt: skip
+    if law.method == SATURATED:
+        coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
+        return kalker.saturated_forces(
+            a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
+            coefficients, law.shear_modulus,
         )  # fmt: skip
     if law.method == POLACH:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
