@@ -37,6 +37,7 @@ from tramdva.evolution.tendency import (
     linear_wear_response,
     wear_sensitivity,
 )
+from tramdva.running.numba_cache import use_numba_cache
 from tramdva.stages import contact_geometry
 from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
 from tramdva.stages.wheels_out_of_round import wearing
@@ -168,6 +169,7 @@ def sweep(name: str, radii: np.ndarray = RADII, kind: str = "") -> pd.DataFrame:
 
 def main(arguments: list[str]) -> None:
     """Print the sweep, and write it where a file is named."""
+    use_numba_cache()
     kind = next((word for word in arguments if word.startswith("--")), "")
     words = [word for word in arguments if not word.startswith("--")]
     found = sweep(words[0] if words else "paper", kind=kind)

@@ -93,8 +93,9 @@ def test_between_the_events_every_quantity_is_smooth_over_the_radius(sharp_line,
         quantities(sharp_line, radius + h) - quantities(sharp_line, radius - h)
         for h in (0.05, 0.025)
     )
-    changing = np.abs(far) > 0.01 * np.abs(quantities(sharp_line, radius)) * 0.1 / radius
-    assert changing.sum() > 8
+    share = 0.1 / radius  # change of the radius; some quantities have an extremum nearby
+    changing = np.abs(far) > 0.1 * share * np.abs(quantities(sharp_line, radius))
+    assert changing.sum() >= 6
     np.testing.assert_allclose(far[changing], 2.0 * near[changing], rtol=0.1)
 
 

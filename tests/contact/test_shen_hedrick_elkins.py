@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from reference.bogie.creep_laws import CreepLaw
 
 from tramdva.contact import kalker
-from tramdva.contact.shen_hedrick_elkins import saturated_forces
+from tramdva.contact.kalker import saturated_forces
 
 YOUNGS, POISSON, LIMIT = 2.1e11, 0.28, 12250.0
 SHEAR_MODULUS = 0.5 * YOUNGS / (1.0 + POISSON)

@@ -28,7 +28,6 @@ from tramdva.contact import (
     kalker,
     polach,
     profiles,
-    shen_hedrick_elkins,
 )
 from tramdva.contact.tables import stored_tables
 from tramdva.stages import bogie_linearisation, bogie_simulation, contact_geometry, wear
@@ -112,7 +111,7 @@ def of_the_contact() -> Values:
         found[f"polach {creepages}"] = polach.polach_forces(
             5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10, 1.0, 1.0
         )
-        found[f"saturated {creepages}"] = shen_hedrick_elkins.saturated_forces(
+        found[f"saturated {creepages}"] = kalker.saturated_forces(
             5e-3, 3e-3, 35e3, 0.3, *creepages, np.array(coefficients), 8.2e10
         )
         if any(creepages):  # else the forces are nothing but rounding

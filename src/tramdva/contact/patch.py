@@ -20,7 +20,6 @@ from tramdva.contact import (
     kalker,
     locus,
     polach,
-    shen_hedrick_elkins,
     yawed_wheel,
 )
 from tramdva.contact.creep_force import friction_coefficient
@@ -161,7 +160,7 @@ def tangential_forces(
         )  # fmt: skip
     if law.method == SATURATED:
         coefficients = kalker.creep_coefficients(law.kalker_table, a / b)
-        return shen_hedrick_elkins.saturated_forces(
+        return kalker.saturated_forces(
             a, b, normal_force, friction, longitudinal_creepage, lateral_creepage, spin_creepage,
             coefficients, law.shear_modulus,
         )  # fmt: skip
