@@ -40,7 +40,6 @@ def worn_area(
     limit = friction * normal / (a * b) * grid.bound_across[real]
     rate_x = nu_x / flexibility[0] - phi * y / flexibility[2]
     qx, qy = np.zeros((2, y.size), complex)
-    force, moment = np.zeros(2, complex), 0.0 + 0.0j
     rows = []
     for k, step in enumerate(grid.step):
         length, x = step * half, grid.middle[k] * half
@@ -57,10 +56,6 @@ def worn_area(
         pressure = 1.5 * normal / (np.pi * a * b) * half_length * grid.pressure_along[k]
         rows.append((x, area, pressure, 0.5 * (qx + new_x), 0.5 * (qy + new_y), slip_x, slip_y))
         qx, qy = new_x, new_y
-        if k < grid.node.size:
-            weight = grid.weight[k] * half * b * grid.strip_weight[real]
-            force += np.array([weight @ qx, weight @ qy])
-            moment += weight @ (grid.node[k] * half * qy - y * qx)
     x, area, pressure, p_x, p_y, s_x, s_y = (np.array(column) for column in zip(*rows, strict=True))
     cell_work = -np.sum(area * (p_x * (nu_x - phi * y) + p_y * (nu_y + phi * x)))
     dissipated = -np.sum(area * (p_x * s_x + p_y * s_y))
