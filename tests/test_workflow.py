@@ -47,7 +47,7 @@ RULES = set(UPSTREAM)
 TABULAR = {figure for figure, kinds in TABLES.kinds.items() if "table" in kinds}
 FIGURES = [figure for figure in TABLES.figures if figure not in TABULAR]
 PER_JOB = ["bogie_linearisation", "bogie_simulation", "wear"]
-ABSORBERS, ORDERS, PARTS = ("none", "paper"), (34, 35), range(4)
+ABSORBERS, ORDERS, PARTS = ("none", "paper"), (34, 35), range(2)
 BOGIE = [
     "basic_model", "preflight", "curving_equilibrium", "bogie_modes", "growth_band", "curve_entry",
 ]  # fmt: skip

@@ -13,14 +13,18 @@ Nothing is taken on trust: where a correction does not converge, moves an eigenv
 `LARGEST_SHIFT`, makes two of them one or leaves none within the limits, all eigenvalues are found.
 """
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from tramdva.bogie.absorber_ports import ABSORBERS, Motion, motion, with_absorbers, with_masses
-from tramdva.bogie.absorbers import AbsorberFamily
 from tramdva.bogie.curving import linearised, oscillations
-from tramdva.bogie.tram import Running
+
+if TYPE_CHECKING:
+    from tramdva.bogie.absorbers import AbsorberFamily
+    from tramdva.bogie.tram import Running
 
 MODES_UP_TO = 1.25  # times the largest frequency that counts
 LARGEST_SHIFT = 0.5  # 1/s, of a correction

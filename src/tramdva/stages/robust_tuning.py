@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.bogie import absorber_ports
-from tramdva.bogie.absorber_ports import Motion
+from tramdva.bogie.absorber_growth import Seen, least_stable, seen
 from tramdva.evolution.tendency import NEAR, highest_top, order_of_frequency
 from tramdva.robustness.criterion import (
     Criterion,
@@ -39,10 +38,6 @@ LOADS = (
 TRIED_VALUES = (
     "tried_I_T", "tried_c_T", "tried_d_T", "tried_nominal_factor", "tried_worst_factor",
 )  # fmt: skip
-# A search asks for signs of growth rates: those of the modes below this multiple of the frequencies
-# that count are enough (they differ by less than 0.1 1/s), unless they are near zero.
-_MODES_UP_TO = 1.25
-_UNDECIDED = 1.0  # 1/s
 
 
 def compute(
@@ -125,12 +120,10 @@ def _criteria(
     reference = references(near.largest(None), near.steady)
     alone = references(near.largest(None)[:1], near.steady[:1])
 
-    cases = [stored_motion(sample, c, OPERATING) for c in range(whole.case[-1] + 1)]
-    low = [motion.below(_MODES_UP_TO * cfg["study"]["frequency"]["max"]) for motion in cases]
+    cases = {case: _seen(cfg, sample, case, OPERATING) for case in whole.case}
 
     def growth(case: int, design: Design) -> float:
-        rough = _growth(cfg, low[case], design)
-        return rough if abs(rough) > _UNDECIDED else _growth(cfg, cases[case], design)
+        return _growth(cfg, cases[case], design)
 
     everywhere = np.ones(count, bool)
     corners = tuple(dict.fromkeys([(1.0, 1.0), *_corners(cfg["study"])]))
@@ -174,27 +167,28 @@ def _corners(study: Mapping[str, Any]) -> list[Shares]:
     return [(stiffness[c], damping[d]) for c in ("min", "max") for d in ("min", "max")]
 
 
-def _growth(cfg, motion: Motion, design: Design) -> float:
-    """Growth rate in 1/s of a bogie with a design."""
+def _seen(cfg, sample: Mapping[str, np.ndarray], case: int, friction: int) -> Seen:
     limits = cfg["study"]["frequency"]["min"], cfg["study"]["frequency"]["max"]
-    eigenvalue = absorber_ports.with_absorbers(motion, cfg["bogie"]["absorber"]["I_T"], *design)
-    return absorber_ports.growth_rate(eigenvalue, limits)
+    return seen(stored_motion(sample, case, friction), limits)
+
+
+def _growth(cfg, bare: Seen, design: Design) -> float:
+    """Growth rate in 1/s of a bogie with a design; -inf without an oscillation."""
+    top = least_stable(bare, cfg["bogie"]["absorber"]["I_T"], *design)
+    return -np.inf if top is None else top.real
 
 
 def _growth_rates(cfg, sample, designs: Sequence[Design | None]) -> np.ndarray:
     """Growth rates (design, case, friction) with the absorber's own shares in each case."""
     out = np.full((len(designs), len(sample["case"]), 2), np.nan)
     out[NONE] = sample["bare_growth_rate"]
-    for row, design in enumerate(designs):
-        if design is None or not np.isfinite(design[0]):
-            continue
-        for case in np.flatnonzero(sample["status"] == "converged"):
-            c, d = absorber_shares(sample)[:, case]
-            own = (design[0] * c, design[1] * d)
-            out[row, case] = [
-                _growth(cfg, stored_motion(sample, case, friction), own)
-                for friction in (FORCED, OPERATING)
-            ]
+    for case in np.flatnonzero(sample["status"] == "converged"):
+        c, d = absorber_shares(sample)[:, case]
+        for friction in (FORCED, OPERATING):
+            bare = _seen(cfg, sample, case, friction)
+            for row, design in enumerate(designs):
+                if design is not None and np.isfinite(design[0]):
+                    out[row, case, friction] = _growth(cfg, bare, (design[0] * c, design[1] * d))
     return out
 
 
