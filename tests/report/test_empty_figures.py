@@ -114,6 +114,4 @@ def test_every_status_has_words() -> None:
         for name in STAGES[stage].variables["status"].meanings[1:]:
             assert name in figures.STATUS_WORDS, name
     assert figures.status_words(["converged", "wheel_lifted"], "converged") == ""
-    assert (
-        figures.status_words(["wheel_lifted"] * 2, "converged") == "a wheel lifts off"
-    )
+    assert figures.status_words(["wheel_lifted"] * 2, "converged") == "a wheel lifts off"
