@@ -36,7 +36,7 @@ AROUND = {
     "stages": {*MODEL, "variables"},
     "configuration": {"quantities"},
     "results": {"variables", "running"},
-    "report": {"results", "running"},
+    "report": {"results", "running", "variables"},
     "record": {"configuration", "results", "running"},
 }
 KNOWS = MODEL | AROUND

@@ -15,7 +15,7 @@ from tramdva.variables.registry import STAGES
 ABSORBERS = np.array(["none", "paper"])
 WHEELS = np.array(["front_outer", "front_inner"])
 LENGTHS = {"absorber": 2, "wheel": 2, "axis": 2, "motion": 6}
-LEAVES = "a contact leaves the profiles"
+LEAVES = "a wheel leaves its profile or table"
 
 
 def nothing(stage: str, lengths: dict | None = None, **given) -> dict[str, np.ndarray]:
@@ -114,4 +114,4 @@ def test_every_status_has_words() -> None:
         for name in STAGES[stage].variables["status"].meanings[1:]:
             assert name in figures.STATUS_WORDS, name
     assert figures.status_words(["converged", "wheel_lifted"], "converged") == ""
-    assert figures.status_words(["wheel_lifted"] * 2, "converged") == "a wheel lifts"
+    assert figures.status_words(["wheel_lifted"] * 2, "converged") == "a wheel lifts off"

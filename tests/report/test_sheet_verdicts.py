@@ -122,6 +122,13 @@ def test_sentence_about_the_bogie(cfg, state: str) -> None:
     assert [other for other in BOGIE if words(BOGIE[other]) in said] == [state]
 
 
+def test_quiet_at_its_own_friction_is_not_vibrating_at_every_one(cfg) -> None:
+    """Between two values of B that were computed it may be quiet."""
+    values = bogie([2.0, 5.0, 9.0]) | {"operating_growth_rate": np.array([-4.4])}
+    assert sheet_verdicts.state_of_bogie(values, 0) == "at_some"
+    assert "does not vibrate by itself (growth" in sheet_verdicts.of_bogie(cfg, values, 0)
+
+
 @pytest.mark.parametrize("state", ORDERS)
 def test_sentence_about_the_orders(cfg, state: str) -> None:
     said = content(cfg, tuning(), maps=OF_ORDERS[state]).verdicts

@@ -228,7 +228,7 @@ def test_the_mass_that_can_do_it_is_found():
         return own, own
 
     needed, least = (2.0 * feed) ** 2, 0.029
-    grid_c, grid_d = least * np.linspace(0.8, 1.1, 9), least * np.linspace(0.1, 0.5, 9)
+    grid_c, grid_d = least * np.linspace(0.85, 1.0, 9), least * np.linspace(0.18, 0.38, 9)
     found = list(larger_mass.masses_tried(criteria, least, grid_c, grid_d, [0], []))
     assert [round(one.inertia / least, 3) for one in found] == [2.0, 4.0, 2.828]
     assert [one.is_enough for one in found] == [one.inertia > 1.2 * needed for one in found]

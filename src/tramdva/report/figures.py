@@ -23,6 +23,7 @@ from matplotlib.text import Text
 from tramdva.report import stamp
 from tramdva.report.design_names import design_name as design_name  # for the scripts
 from tramdva.results import atomically
+from tramdva.variables.shared import CURVING_WORDS
 
 SINGLE_COLUMN = 84.0  # mm
 DOUBLE_COLUMN = 174.0  # mm
@@ -63,14 +64,11 @@ def mode_name(mode: str) -> str:
 
 
 # How a simulation or an equilibrium ended, for readers.
-STATUS_WORDS = {
-    "no_equilibrium": "no steady running was found",
-    "not_converged": "no steady running was found",
+STATUS_WORDS = CURVING_WORDS | {
+    "no_equilibrium": CURVING_WORDS["not_converged"],
     "self_excited": "vibrates by itself, no order was simulated",
     "not_periodic": "did not become periodic",
-    "wheel_lifted": "a wheel lifts",
     "contact_lost": "a wheel loses contact",
-    "outside_profile": "a contact leaves the profiles",
     "not_finite": "the simulation failed",
 }
 

@@ -12,15 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from tramdva import results
+from tramdva.variables.shared import CURVING_WORDS
 
 Section = tuple[str, list[tuple[str, str]]]  # heading; rows of what and value
 
-STATUS_WORDS = {
-    "converged": "found",
-    "not_converged": "not found: no steady running in the curve",
-    "wheel_lifted": "a wheel lifts off in the curve",
-    "outside_profile": "a wheel leaves its profile or contact table in the curve",
-}
+STATUS_WORDS = CURVING_WORDS | {"converged": "found"}
 ABSORBER_WORDS = {"none": "without absorbers", "paper": "with the line's absorber"}
 FRICTION_WORDS = {"operation": "in operation", "forced_excitation": "for orders of the wheels"}
 

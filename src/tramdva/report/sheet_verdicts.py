@@ -143,7 +143,7 @@ def state_of_bogie(modes: Values, row: int) -> str:
     if not np.isfinite(growth).any():
         return "no_oscillation"
     excited = growth[np.isfinite(growth)] >= 0.0
-    if excited.all():
+    if excited.all() and modes["operating_growth_rate"][row] >= 0.0:
         return "always"
     if excited[0]:
         return "at_some"

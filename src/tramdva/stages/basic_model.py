@@ -15,6 +15,7 @@ from tramdva.bogie.vehicle import absorber_carriers
 from tramdva.contact import kalker, patch
 from tramdva.stages.bogie_sections import bogie_line, frequency_limits
 from tramdva.variables.basic_model import QUANTITIES, VARIABLES
+from tramdva.variables.shared import CURVING_WORDS
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -27,10 +28,7 @@ SECTION_OF = {
 }
 # rad; with less the inner wheel does not slide steadily outwards, which the basic model is about.
 LEAST_ATTACK = 1e-3
-REASONS = {
-    "not_converged": "no steady running of the bogie in the curve was found",
-    "wheel_lifted": "a wheel of the bogie lifts off in the curve",
-    "outside_profile": "a wheel of the bogie leaves its profile or contact table in the curve",
+REASONS = CURVING_WORDS | {
     "no_attack": "the front axle has no angle of attack of 1 mrad: its inner wheel does not slide",
     "no_mode": "the bogie has no second bending or no resilient wheel mode at the inner wheel",
     "no_chain": "no two masses on two springs have the modes of the bogie",

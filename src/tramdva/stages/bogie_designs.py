@@ -15,6 +15,7 @@ from tramdva.bogie.curving import linearise, oscillations
 from tramdva.bogie.tram import BogieLine, Running, changed, run_through
 from tramdva.evolution.any_absorber import any_absorber
 from tramdva.evolution.tendency import (
+    band_axis,
     finer_near_modes,
     growth_left,
     largest,
@@ -175,9 +176,7 @@ def _tendencies(cfg, line: BogieLine, quiet: Running, c_T, d_T, frequency, stead
 
 def _in_band(cfg, line: BogieLine, quiet: Running, c_T, d_T, steady) -> dict[str, np.ndarray]:
     """Largest tendency of every steady design in the band of design, finely looked at."""
-    band, limits = cfg["study"]["design_band"], cfg["study"]["frequency"]
-    step = (limits["max"] - limits["min"]) / (cfg["numerics"]["frequency_points"] - 1)
-    axis = np.linspace(band["min"], band["max"], int(np.ceil((band["max"] - band["min"]) / step)))
+    axis = band_axis(cfg["study"]["design_band"]["min"], cfg["study"]["design_band"]["max"])
     if quiet.equilibrium.status == "converged":
         linear = linearise(quiet.curve, quiet.equilibrium.state)
         axis = finer_near_modes(axis, np.linalg.eigvals(linear.matrix))

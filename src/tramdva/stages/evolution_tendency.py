@@ -9,6 +9,7 @@ from tramdva.bogie.stored import stored_bogie
 from tramdva.evolution.out_of_roundness import level
 from tramdva.evolution.tendency import (
     NEAR,
+    band_axis,
     evolution_tendency,
     excitation_frequency,
     finer_near_modes,
@@ -122,9 +123,10 @@ def finely(cfg: Mapping[str, Any], linearisations: Sequence[Mapping[str, np.ndar
     axis = np.linspace(
         study["frequency"]["min"], study["frequency"]["max"], cfg["numerics"]["frequency_points"]
     )
+    band = band_axis(study["design_band"]["min"], study["design_band"]["max"])
     frequency, tendency = [], []
     for one in map(stored_bogie, linearisations):
-        frequency.append(finer_near_modes(axis, one.bogie.eigenvalue))
+        frequency.append(finer_near_modes(np.union1d(axis, band), one.bogie.eigenvalue))
         sensitivity = wear_sensitivity(one.bogie, one.law, worn_by)
         response = linear_wear_response(
             one.bogie, sensitivity, frequency[-1], one.places.speed, one.wheel_radius,

@@ -14,6 +14,7 @@ from tramdva.contact.tables import zone_names
 from tramdva.stages.bogie_sections import bogie_line, frequency_limits
 from tramdva.stages.contact_sections import line_profile
 from tramdva.variables.preflight import VARIABLES
+from tramdva.variables.shared import CURVING_WORDS
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -24,11 +25,6 @@ CONTACT_VARIABLES = {
     "contact_angle": patch.CONTACT_ANGLE,
     "slip_velocity": patch.SLIP_VELOCITY,
     "wheel_position": patch.WHEEL_POSITION,
-}
-REASONS = {
-    "not_converged": "no steady running in the curve was found",
-    "wheel_lifted": "a wheel lifts off in the curve",
-    "outside_profile": "a wheel leaves its profile or contact table in the curve",
 }
 BASIC, WHEEL_ORDERS = "stability_map", "bogie_simulation"  # stages that tell their parts
 CONTACT = "contact_geometry"
@@ -164,7 +160,7 @@ def _profile(cfg: Mapping[str, Any], file_of) -> dict[str, np.ndarray]:
 
 def _parts(cfg: Mapping[str, Any], values, basic_model) -> dict[str, np.ndarray]:
     """Parts of the run with the reason where one of them cannot have its results."""
-    lost = REASONS.get(str(values["status"][0]), "")
+    lost = CURVING_WORDS.get(str(values["status"][0]), "")
     reasons = []
     for part in cfg["plan"]:
         reason = str(basic_model["reason"]) if BASIC in part["stages"] else lost

@@ -15,7 +15,7 @@ from tramdva.bogie.conditions import Conditions, State, as_configured, reached, 
 from tramdva.bogie.curving import linearise, near, with_friction_decrease
 from tramdva.bogie.tram import run_through
 from tramdva.evolution.any_absorber import wear_ports
-from tramdva.evolution.tendency import NEAR, finer_near_modes
+from tramdva.evolution.tendency import NEAR, band_axis, finer_near_modes
 from tramdva.robustness.sample import (
     FRICTIONS,
     cases,
@@ -132,7 +132,9 @@ def _axis(cfg: Mapping[str, Any]) -> np.ndarray:
     bands = [*cfg["study"]["peaks"], cfg["study"]["design_band"]]
     low = min(band["min"] for band in bands) * (1.0 - NEAR)
     high = max(band["max"] for band in bands) * (1.0 + NEAR)
-    return np.linspace(low, high, int(np.ceil((high - low) / cfg["numerics"]["frequency_step"])))
+    even = np.linspace(low, high, int(np.ceil((high - low) / cfg["numerics"]["frequency_step"])))
+    band = cfg["study"]["design_band"]
+    return np.union1d(even, band_axis(band["min"], band["max"]))
 
 
 def _no_case(cfg: Mapping[str, Any], nominal: State, status: str) -> dict[str, Any]:

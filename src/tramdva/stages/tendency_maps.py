@@ -14,6 +14,7 @@ from tramdva.bogie.tram import run_through
 from tramdva.evolution.any_absorber import any_absorber
 from tramdva.evolution.growing_orders import growing_orders
 from tramdva.evolution.tendency import (
+    band_axis,
     evolution_tendency,
     finer_near_modes,
     growth_left,
@@ -76,7 +77,7 @@ def compute(
         "radius_tendency": over_radius["tendency"],
         "radius_growth_rate": over_radius["growth_rate"],
         "radius_status": over_radius["status"],
-        **_over_absorbers(cfg, known, frequency),
+        **_over_absorbers(cfg, known),
     }
     return values | conclusions(values, cfg["bogie"]["wheel"]["radius"])
 
@@ -145,13 +146,12 @@ def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
     return float(values.real.max()) if values.size else np.nan
 
 
-def _over_absorbers(cfg, known: State, frequency: np.ndarray) -> dict[str, np.ndarray]:
+def _over_absorbers(cfg, known: State) -> dict[str, np.ndarray]:
     """Largest tendency in the band of design with an absorber over that without."""
     study, points = cfg["study"], cfg["numerics"]["map_points"]
     d_T = np.linspace(study["d_T"]["min"], study["d_T"]["max"], points)
     c_T = np.linspace(study["c_T"]["min"], study["c_T"]["max"], points)
-    band, step = study["design_band"], frequency[1] - frequency[0]
-    axis = np.linspace(band["min"], band["max"], int(np.ceil((band["max"] - band["min"]) / step)))
+    axis = band_axis(study["design_band"]["min"], study["design_band"]["max"])
     matrix = linearise(known.system, known.equilibrium.state).matrix
     axis = finer_near_modes(axis, np.linalg.eigvals(matrix))
     attached = any_absorber(wearing(cfg), known, axis)

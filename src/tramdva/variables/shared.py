@@ -18,6 +18,12 @@ INSTABILITIES = ("stable", "oscillatory", "monotone", "no_equilibrium")
 AXLE_STIFFNESS = "stiffness of axle and primary suspension"
 
 CURVING_STATUS = ("converged", "not_converged", "wheel_lifted", "outside_profile")
+# Why there is no steady running, for readers: the same on all pages.
+CURVING_WORDS = {
+    "not_converged": "no steady running was found",
+    "wheel_lifted": "a wheel lifts off",
+    "outside_profile": "a wheel leaves its profile or table",
+}
 
 BOGIE_ABSORBERS = {
     "absorber": text("absorber", "absorber of the bogie"),
