@@ -126,7 +126,7 @@ def best_of_material(
     inertia : kg m^2 or kg
     stiffness : (k,) rising, in equal ratios; its ends bound the design
     material : Material
-    near : a design near which the search begins; else it begins on a grid
+    near : a design among those with which the search may begin, beside a grid
 
     Notes
     -----
@@ -145,20 +145,16 @@ def best_of_material(
         designs = at_temperatures(inertia, c_T, eta, material)
         return all(fleet.quiet(inertia, *one, friction) for one in designs)
 
-    start, friction = None, 1
+    places = [np.array([c, eta]) for c in np.log(stiffness) for eta in np.log(loss)]
     if near is not None and np.isfinite(near.c_T):
-        loss_factor = near.d_T / np.sqrt(near.c_T * inertia)
-        place = np.log([near.c_T, loss_factor])
-        start = place if quiet(place, friction) else None
-    if start is None:
-        places = [np.array([c, eta]) for c in np.log(stiffness) for eta in np.log(loss)]
-        ranked = sorted(places, key=aim, reverse=True)
-        for friction in (1, 0):
-            start = next((place for place in ranked if quiet(place, friction)), None)
-            if start is not None:
-                break
-        else:
-            return Design(np.nan, np.nan, np.nan, quiet=False)
+        places.append(np.log([near.c_T, near.d_T / np.sqrt(near.c_T * inertia)]))
+    ranked = sorted(places, key=aim, reverse=True)
+    for friction in (1, 0):
+        start = next((place for place in ranked if quiet(place, friction)), None)
+        if start is not None:
+            break
+    else:
+        return Design(np.nan, np.nan, np.nan, quiet=False)
     step = np.array([np.log(stiffness[1] / stiffness[0]), max(np.log(loss[1] / loss[0]), 1e-3)])
     bounds = [np.log(stiffness[[0, -1]]), np.log(loss[[0, -1]])]
     found = _climbed(aim, lambda place: quiet(place, friction), start, step, bounds)

@@ -130,7 +130,7 @@ def _over(cfg, known: State, designs, name: str, values, frequency) -> dict[str,
                 if state.equilibrium.status != "converged":
                     break
                 bogie = rough_bogie(state.system, state.equilibrium)
-                growth[i, k] = _growth_rate(bogie, cfg["study"]["design_band"])
+                growth[i, k] = _growth_rate(bogie, cfg["study"]["frequency"])
                 worn = wear_sensitivity(bogie, state.system.contacts.law, wearing(cfg))
                 places, radius = state.system.contacts.places, state.line.bogie.wheel.radius
                 response = linear_wear_response(
@@ -140,9 +140,9 @@ def _over(cfg, known: State, designs, name: str, values, frequency) -> dict[str,
     return {"tendency": tendency, "growth_rate": growth, "status": status}
 
 
-def _growth_rate(bogie: RoughBogie, band: Mapping[str, float]) -> float:
-    """Largest growth rate in 1/s of the oscillations in a band (Hz); NaN if there are none."""
-    values = oscillations(bogie.eigenvalue, (band["min"], band["max"]))
+def _growth_rate(bogie: RoughBogie, limits: Mapping[str, float]) -> float:
+    """Largest growth rate in 1/s of the oscillations within limits (Hz); NaN if there are none."""
+    values = oscillations(bogie.eigenvalue, (limits["min"], limits["max"]))
     return float(values.real.max()) if values.size else np.nan
 
 

@@ -17,7 +17,7 @@ VARIABLES = Stage(
             "absorber wheel speed frequency", "1", "evolution tendency per revolution"
         ),
         "speed_growth_rate": real(
-            "absorber speed", "s-1", "largest growth rate in the band of design"
+            "absorber speed", "s-1", "largest growth rate of an oscillation within the frequencies"
         ),
         "speed_status": flag("absorber speed", CURVING_STATUS, "status of the equilibrium"),
         "largest_speed_tendency": real(
@@ -39,7 +39,7 @@ VARIABLES = Stage(
             "absorber wheel radius frequency", "1", "evolution tendency per revolution"
         ),
         "radius_growth_rate": real(
-            "absorber radius", "s-1", "largest growth rate in the band of design"
+            "absorber radius", "s-1", "largest growth rate of an oscillation within the frequencies"
         ),
         "radius_status": flag("absorber radius", CURVING_STATUS, "status of the equilibrium"),
         "map_d_T": real("map_d_T", "N m s/rad", "damping of the absorber"),
