@@ -7,6 +7,7 @@
     python3 run.py quick [...]   the same coarsely, in the folder quick/ of its own; `quick report`,
                                  `quick status` and so on concern that folder
     python3 run.py status [...]  what is missing, stale or coarse
+    python3 run.py route ...     a table of a route from an alignment and logs of speed (--help)
     python3 run.py report        report.html with the figures that exist; none beside other values
     python3 run.py crate [...]   ro-crate-metadata.json: where each figure and number comes from
     python3 run.py archive [...] a .tar.gz of sources, results and crate that runs elsewhere
@@ -87,6 +88,8 @@ def command(arguments: list[str]) -> list[str]:
         return [*STATUS, *arguments[1:]]
     if arguments[:1] in (["crate"], ["archive"]):
         return ["python", "-m", f"tramdva.record.{arguments[0]}", *arguments[1:]]
+    if arguments[:1] == ["route"]:
+        return ["python", "-m", "tramdva.importing.route", *arguments[1:]]
     if arguments[:1] == ["docs"]:
         return ["sphinx-build", "-W", "--keep-going", *arguments[1:], "docs", "docs/_build/html"]
     cores = re.compile(r"(-j|--jobs|-c|--cores)(=?\d+|=?all)?")

@@ -38,6 +38,7 @@ AROUND = {
     "results": {"variables", "running"},
     "report": {"results", "running", "variables"},
     "record": {"configuration", "results", "running"},
+    "importing": {"route", "report", "results"},
 }
 KNOWS = MODEL | AROUND
 AT_THE_ROOT = {"__init__", "quantities", "results"}
@@ -53,7 +54,11 @@ READ_TABLES = {"contact.creep_table"}  # a file beside the code, whose digest th
 TOUCH_THE_DISK = {
     *READ_MEASUREMENTS,
     *READ_TABLES,
-    *(m for m in MODULES if m.split(".")[0] in ("configuration", "running", "record", "results")),
+    *(
+        m
+        for m in MODULES
+        if m.split(".")[0] in ("configuration", "running", "record", "results", "importing")
+    ),
     "report.figures",
     "report.tables",
     "report.explorer_page",

@@ -64,6 +64,7 @@ def run(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleTy
         (["test", "--numprocesses", "4"], ["pytest", "--numprocesses", "4"]),
         (["crate", "-j1"], ["python", "-m", "tramdva.record.crate", "-j1"]),
         (["archive"], ["python", "-m", "tramdva.record.archive"]),
+        (["route", "a.xml"], ["python", "-m", "tramdva.importing.route", "a.xml"]),
         (["docs", "-q"], ["sphinx-build", "-W", "--keep-going", "-q", "docs", "docs/_build/html"]),
         (["results/paper/test"], ["snakemake", "-j2", "results/paper/test"]),
     ],
