@@ -1,0 +1,128 @@
+"""Wheel orders in the nonlinear vehicle: beside the linear response, and up to saturation.
+
+    python benchmarks/polygon_amplitudes.py [chart|smoothed|constant] [step_tolerance] [chosen orders]
+
+The paper's bogie in its curve, own waves of the outer front wheel. First every order from 5 to 67
+alone at 1 um, then seven at once, against the linear response: rate and drift of each. Then the
+response over the amplitude until the wheel no longer runs steadily: the table of docs/evolution.md.
+"""
+
+import sys
+import time
+
+import numpy as np
+
+from tramdva.running.numba_cache import use_numba_cache
+
+use_numba_cache()
+
+from tramdva.bogie.names import WHEELS  # noqa: E402
+from tramdva.bogie.published import paper_bogie  # noqa: E402
+from tramdva.bogie.revolutions import Settings  # noqa: E402
+from tramdva.bogie.rough_vehicle import rough_bogie  # noqa: E402
+from tramdva.bogie.tram import absorber, changed, run_through  # noqa: E402
+from tramdva.contact.fastsim import patch_grid  # noqa: E402
+from tramdva.evolution.tendency import Wearing, wear_sensitivity  # noqa: E402
+from tramdva.route.nonlinear import WearingWheel, revolution  # noqa: E402
+from tramdva.route.own_response import own_response, spins  # noqa: E402
+from tramdva.route.saturation import describing, saturation_amplitude  # noqa: E402
+from tramdva.wear.chart import METHODS, WearChart  # noqa: E402
+
+CHART = WearChart(
+    method=0, hardness=2.7e9, coefficient_mild=5e-4, coefficient_severe=3.5e-3,
+    coefficient_mild_fast=5e-4, coefficient_seizure=3.5e-2, velocity_low=0.2, velocity_high=0.7,
+    pressure_share=0.8, velocity_width=0.05, pressure_width_share=0.05, coefficient_constant=5e-4,
+)  # fmt: skip
+SETTINGS = Settings(512, 1, 40, 1e-3, 0.05)
+AMPLITUDES = 1e-6 * np.array([1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0])
+TOGETHER = np.array([5, 13, 26, 34, 43, 56, 67])
+
+
+def wheels(method: str, cells: int) -> dict:
+    """Outer front wheel and the linear response of orders 1 to 68, by absorber."""
+    line = paper_bogie()
+    line = line._replace(friction=(*line.friction[:2], 0.4))
+    chart, grid = CHART._replace(method=METHODS[method]), patch_grid(cells, cells)
+    bare = run_through(line)
+    found = {}
+    for name, run in (
+        ("none", bare),
+        ("Table 3", changed(line, absorber(line, 1.74e5, 300), bare)),
+    ):
+        bogie = rough_bogie(run.curve, run.equilibrium)
+        wear = wear_sensitivity(bogie, run.curve.contacts.law, Wearing(chart, grid, WHEELS))
+        spin = float(spins(run.curve, run.equilibrium.state)[0])
+        orders = np.arange(1.0, 69.0)
+        response = own_response(bogie, [wear], 0, spin).at(orders, orders * spin)[0]
+        zones = np.ones(bogie.touching.shape[1])
+        wheel = WearingWheel(run.curve.contacts, bogie, 0, spin, chart, grid, zones, SETTINGS)
+        found[name] = wheel, orders, response
+    return found
+
+
+def beside_linear(wheel: WearingWheel, orders: np.ndarray, linear: np.ndarray, size: float) -> None:
+    """Print the largest errors of rate and drift of single orders, and of several at once."""
+    found = np.empty(orders.size, complex)
+    for place in range(4, 67):
+        wave = np.zeros(orders.size, complex)
+        wave[place] = size
+        found[place] = revolution(wheel, orders, wave).depth[place] / size
+    shown = slice(4, 67)
+    print(f"  alone at {1e6 * size:g} um:", _errors(found[shown], linear[shown], orders[shown]))
+    wave = np.zeros(orders.size, complex)
+    phase = np.random.default_rng(1).uniform(-np.pi, np.pi, TOGETHER.size)
+    wave[TOGETHER - 1] = size * np.exp(1j * phase)
+    # What is proportional to the waves; combinations of two change no sign with them.
+    both = [revolution(wheel, orders, sign * wave).depth for sign in (1.0, -1.0)]
+    some = (0.5 * (both[0] - both[1]))[TOGETHER - 1] / wave[TOGETHER - 1]
+    print("  seven at once:", _errors(some, linear[TOGETHER - 1], TOGETHER))
+
+
+def _errors(found: np.ndarray, linear: np.ndarray, orders: np.ndarray) -> str:
+    """Largest errors of rate, drift and response, and how many orders are within 2 %."""
+    rate = np.abs(found.real / linear.real - 1.0)
+    drift = np.abs(found.imag / linear.imag - 1.0)
+    whole = np.abs(found / linear - 1.0)
+    text = f"response {100 * whole.max():.2f} % (order {orders[whole.argmax()]:.0f})"
+    for name, error in (("rate", rate), ("drift", drift)):
+        text += f", {name} {100 * error.max():.2f} % (order {orders[error.argmax()]:.0f}"
+        text += f", {np.sum(error > 0.02)} beyond 2 %)"
+    return text
+
+
+def over_amplitude(
+    wheel: WearingWheel, orders: np.ndarray, linear: np.ndarray, chosen: np.ndarray
+) -> None:
+    """Print the response of chosen orders over their amplitude, over that of small waves."""
+    table = describing(wheel, chosen, AMPLITUDES)
+    small = linear[chosen.astype(int) - 1]
+    saturation = saturation_amplitude(table, small)
+    for row, order in enumerate(chosen):
+        print(f"  order {order:.0f}, growth of small waves {-small[row].real:.2e}; a tenth is left "
+              f"at {1e6 * saturation[row]:.1f} um")  # fmt: skip
+        for column, size in enumerate(AMPLITUDES):
+            value = table.response[row, column]
+            print(f"    {1e6 * size:5.0f} um: response {100 * (abs(value / small[row]) - 1):+6.1f} %, "
+                  f"growth {100 * (value.real / small[row].real):6.1f} %, harmonics "
+                  f"{100 * table.harmonics[row, column]:5.1f} %, {table.status[row, column]}")  # fmt: skip
+
+
+def main() -> None:
+    """Print everything."""
+    method = sys.argv[1] if len(sys.argv) > 1 else "smoothed"
+    tolerance = float(sys.argv[2]) if len(sys.argv) > 2 else SETTINGS.step_tolerance
+    chosen = np.array([float(a) for a in sys.argv[3].split(",")] if len(sys.argv) > 3 else [10, 26, 34, 55])  # fmt: skip
+    for name, (wheel, orders, linear) in wheels(method, 40).items():
+        wheel = wheel._replace(settings=SETTINGS._replace(step_tolerance=tolerance))
+        print(f"absorbers: {name}; {method}", flush=True)
+        start = time.process_time()
+        for size in (1e-6,) if method != "chart" else (2e-7, 1e-6):
+            beside_linear(wheel, orders, linear, size)
+        print(f"  {time.process_time() - start:.0f} s", flush=True)
+        start = time.process_time()
+        over_amplitude(wheel, orders, linear, chosen)
+        print(f"  {time.process_time() - start:.0f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()
