@@ -1,10 +1,11 @@
 """Wheel orders in the nonlinear vehicle: beside the linear response, and up to saturation.
 
-    python benchmarks/polygon_amplitudes.py [chart|smoothed|constant] [step_tolerance] [chosen orders]
+    python benchmarks/polygon_amplitudes.py [law] [step_tolerance] [orders]
 
-The paper's bogie in its curve, own waves of the outer front wheel. First every order from 5 to 67
-alone at 1 um, then seven at once, against the linear response: rate and drift of each. Then the
-response over the amplitude until the wheel no longer runs steadily: the table of docs/evolution.md.
+The law: chart, smoothed or constant; orders such as 10,26,55. The paper's bogie in its curve, own
+waves of the outer front wheel. First every order from 5 to 67 alone at 1 um, then seven at once,
+against the linear response: rate and drift of each. Then the response over the amplitude until the
+wheel no longer runs steadily: the table of docs/evolution.md.
 """
 
 import sys
@@ -102,16 +103,19 @@ def over_amplitude(
               f"at {1e6 * saturation[row]:.1f} um")  # fmt: skip
         for column, size in enumerate(AMPLITUDES):
             value = table.response[row, column]
-            print(f"    {1e6 * size:5.0f} um: response {100 * (abs(value / small[row]) - 1):+6.1f} %, "
-                  f"growth {100 * (value.real / small[row].real):6.1f} %, harmonics "
-                  f"{100 * table.harmonics[row, column]:5.1f} %, {table.status[row, column]}")  # fmt: skip
+            left = value / small[row]
+            print(
+                f"    {1e6 * size:5.0f} um: response {100 * (abs(left) - 1):+6.1f} %, growth "
+                f"{100 * value.real / small[row].real:6.1f} %, harmonics "
+                f"{100 * table.harmonics[row, column]:5.1f} %, {table.status[row, column]}"
+            )
 
 
 def main() -> None:
     """Print everything."""
     method = sys.argv[1] if len(sys.argv) > 1 else "smoothed"
     tolerance = float(sys.argv[2]) if len(sys.argv) > 2 else SETTINGS.step_tolerance
-    chosen = np.array([float(a) for a in sys.argv[3].split(",")] if len(sys.argv) > 3 else [10, 26, 34, 55])  # fmt: skip
+    chosen = np.array((sys.argv[3] if len(sys.argv) > 3 else "10,26,34,55").split(","), float)
     for name, (wheel, orders, linear) in wheels(method, 40).items():
         wheel = wheel._replace(settings=SETTINGS._replace(step_tolerance=tolerance))
         print(f"absorbers: {name}; {method}", flush=True)

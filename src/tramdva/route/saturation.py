@@ -43,7 +43,7 @@ def describing(wheel: WearingWheel, orders: np.ndarray, amplitudes: np.ndarray) 
     Notes
     -----
     An order that no longer runs steadily is not taken to larger amplitudes: these have its status.
-    ``contact_lost`` tells that the wheel leaves the rail at times; its wear is then that of the rest.
+    ``contact_lost`` tells that the wheel leaves the rail at times; it then wears while it touches.
     """
     shape = orders.size, amplitudes.size
     response, harmonics = np.full(shape, np.nan + 0j), np.full(shape, np.nan)

@@ -13,7 +13,7 @@ from tramdva.bogie.tram import BogieLine
 from tramdva.contact import patch
 from tramdva.evolution.out_of_roundness import level, radius_deviation
 from tramdva.evolution.tendency import Wearing, wear_sensitivity
-from tramdva.route.classes import OWN_WHEELS, RunningClass, places_of_wheels
+from tramdva.route.classes import OWN_WHEELS, RunningClass
 from tramdva.route.growth import (
     distance_to_limit,
     grown,
@@ -25,9 +25,10 @@ from tramdva.route.own_response import own_response, spins
 from tramdva.route.parameters import InitialSpectrum
 from tramdva.route.response import FLANGE_ANGLE, at_speed, steady, with_absorbers
 from tramdva.route.saturation import describing, saturating, saturation_amplitude
+from tramdva.route.scaling import Case
 from tramdva.route.wearing_on import Bounds, WornOn, own_rates, step_at, wear_on
 from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
-from tramdva.stages.route_sections import Case, Lap, lap_of
+from tramdva.stages.route_sections import Lap, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.polygon_simulation import ORDER_KINDS, VARIABLES
 from tramdva.wear.chart import METHODS
@@ -149,7 +150,7 @@ def _angles() -> np.ndarray:
 
 def _condition(given: Mapping[str, np.ndarray], lap: Lap, place: Place) -> dict[str, Any]:
     case = lap.cases()[place.case]
-    there = places_of_wheels(case.turn, case.leading)[place.wheel]
+    there = case.places[place.wheel]
     return {
         "condition": np.array(str(given["class"][place.case])),
         "radius": np.float64(given["radius"][place.case]),
@@ -163,7 +164,8 @@ def _condition(given: Mapping[str, np.ndarray], lap: Lap, place: Place) -> dict[
 def _design(line: BogieLine, given: Mapping[str, np.ndarray], k: int) -> BogieAbsorber | None:
     if not np.isfinite(given["c_T"][k]):
         return None
-    values = {name: float(given[own][k]) for name, own in (("I_T", "m_T"), ("c_T", "c_T"), ("d_T", "d_T"))}  # fmt: skip
+    of_file = {"I_T": "m_T", "c_T": "c_T", "d_T": "d_T"}
+    values = {name: float(given[column][k]) for name, column in of_file.items()}
     return line.bogie.absorber.model_copy(update=values)
 
 
@@ -195,7 +197,7 @@ def _wheel(
     bogie = rough_bogie(run.system, run.equilibrium)
     if why := hindrance(bogie, converged=True):
         return Wheel(None, unknown, why)
-    at = places_of_wheels(case.turn, case.leading)[place.wheel]
+    at = case.places[place.wheel]
     chart = chart_of(cfg)._replace(method=METHODS[cfg["route"]["wear_law"]])
     share = _zone_share(bogie, at, flange_ratio * running.flange_wear_share)
     contacts, grid = run.system.contacts, wear_grid(cfg)
@@ -273,15 +275,20 @@ def _row(cfg: Mapping[str, Any], wheel: Wheel, place: Place, scale: float) -> di
 
 
 def _told_apart(wheel: Wheel, orders: np.ndarray, run: WornOn, per_km: float) -> dict[str, Any]:
-    """Orders that grow by themselves, and those that others drive, at half of the last profile."""
-    last = peak_to_peak(orders, run.steps[-1].amplitude)
-    u = run.reaches(0.5 * float(last))
+    """Orders that grow by themselves, and those that others drive.
+
+    It is told where the order that gained most has half of its last amplitude.
+    """
+    u = np.linspace(0.0, run.end, 201)
+    size = np.abs(run.at(u))
+    most = int((size[-1] - size[0]).argmax())
+    u = float(u[np.argmax(size[:, most] >= 0.5 * size[-1, most])])
     state = np.zeros(2 * wheel.running.bogie.eigenvalue.size)
 
     def worn(amplitude: np.ndarray):
         return revolution(wheel.running, orders, amplitude, state)
 
-    now = step_at(worn, run, 0.0 if np.isnan(u) else u, wheel.small)
+    now = step_at(worn, run, u, wheel.small)
     size = np.abs(now.amplitude)
     largest = np.argsort(-size)[:EXAMINED]
     total, own = own_rates(worn, now, largest[size[largest] >= LARGE * size.max()])
