@@ -5,11 +5,13 @@
 The law: chart, smoothed or constant; orders such as 10,26,55. The paper's bogie in its curve, own
 waves of the outer front wheel. First every order from 5 to 67 alone at 1 um, then seven at once,
 against the linear response: rate and drift of each. Then the response over the amplitude until the
-wheel no longer runs steadily: the table of docs/evolution.md.
+wheel no longer runs steadily: the table of docs/evolution.md. At last a turned wheel wears on, with
+steps as configured and with half of them.
 """
 
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -22,18 +24,19 @@ from tramdva.bogie.published import paper_bogie  # noqa: E402
 from tramdva.bogie.revolutions import Settings  # noqa: E402
 from tramdva.bogie.rough_vehicle import rough_bogie  # noqa: E402
 from tramdva.bogie.tram import absorber, changed, run_through  # noqa: E402
+from tramdva.configuration.reading import load  # noqa: E402
 from tramdva.contact.fastsim import patch_grid  # noqa: E402
 from tramdva.evolution.tendency import Wearing, wear_sensitivity  # noqa: E402
+from tramdva.route import wearing_on  # noqa: E402
+from tramdva.route.growth import initial_amplitudes  # noqa: E402
 from tramdva.route.nonlinear import WearingWheel, revolution  # noqa: E402
 from tramdva.route.own_response import own_response, spins  # noqa: E402
+from tramdva.route.parameters import InitialSpectrum  # noqa: E402
 from tramdva.route.saturation import describing, saturation_amplitude  # noqa: E402
-from tramdva.wear.chart import METHODS, WearChart  # noqa: E402
+from tramdva.route.wearing_on import Bounds, wear_on  # noqa: E402
+from tramdva.wear.chart import METHODS, wear_chart  # noqa: E402
 
-CHART = WearChart(
-    method=0, hardness=2.7e9, coefficient_mild=5e-4, coefficient_severe=3.5e-3,
-    coefficient_mild_fast=5e-4, coefficient_seizure=3.5e-2, velocity_low=0.2, velocity_high=0.7,
-    pressure_share=0.8, velocity_width=0.05, pressure_width_share=0.05, coefficient_constant=5e-4,
-)  # fmt: skip
+CHART = wear_chart(load(Path(__file__).parents[1] / "config").lines["paper"].wear)
 SETTINGS = Settings(512, 1, 40, 1e-3, 0.05)
 AMPLITUDES = 1e-6 * np.array([1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0])
 TOGETHER = np.array([5, 13, 26, 34, 43, 56, 67])
@@ -111,6 +114,33 @@ def over_amplitude(
             )
 
 
+def halved_steps(wheel: WearingWheel, orders: np.ndarray, linear: np.ndarray) -> None:
+    """Print by how much half of the steps changes the levels of a wheel that wears on."""
+    spectrum = InitialSpectrum(level_dB=17, slope_dB_per_octave=-6, seed=1)
+    initial = initial_amplitudes(orders, spectrum)
+    bounds = Bounds(1e4 / -linear.real.min(), 1.5e-4, 5e-3, 300)
+    runs = []
+    for share in (1.0, 0.5):
+        wearing_on.LONGEST = 0.5 * share
+        start = time.process_time()
+        run = wear_on(wheel, orders, initial, linear, bounds._replace(tolerance=5e-3 * share**3))
+        runs.append(run)
+        print(
+            f"  {len(run.steps)} steps, {run.evaluations} steady revolutions, {run.status} after "
+            f"{-linear.real.min() * run.end:.2f} e-folds of the fastest order: "
+            f"{time.process_time() - start:.0f} s",
+            flush=True,
+        )
+    u = np.linspace(0.0, min(run.end for run in runs), 20)
+    coarse, fine = (np.abs(run.at(u)) for run in runs)
+    change = 20.0 * np.abs(np.log10(coarse / fine))
+    for share in (0.1, 0.01):
+        counted = fine >= share * fine.max(axis=1, keepdims=True)
+        print(
+            f"  half of the steps: {change[counted].max():.3f} dB, above {share:g} of the largest"
+        )
+
+
 def main() -> None:
     """Print everything."""
     method = sys.argv[1] if len(sys.argv) > 1 else "smoothed"
@@ -126,6 +156,8 @@ def main() -> None:
         start = time.process_time()
         over_amplitude(wheel, orders, linear, chosen)
         print(f"  {time.process_time() - start:.0f} s", flush=True)
+        if name == "none":
+            halved_steps(wheel, orders, linear)
 
 
 if __name__ == "__main__":

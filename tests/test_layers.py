@@ -89,6 +89,7 @@ BUDGET = {
     "route_response": 44,
     "route_remedies": 53,
     "polygon_growth": 8,
+    "polygon_simulation": 53,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 

@@ -109,7 +109,7 @@ def test_mileage_times_coefficient_is_what_counts(middle, laws):
     for factor in (1.0, 2.0):
         coefficient = factor * laws[0].chart.coefficient_constant
         running, small = wheel_of(middle, laws[0], 0, CONSTANT, coefficient_constant=coefficient)
-        bounds = Bounds(300.0 / factor, 1.0, 2e-2, 40)
+        bounds = Bounds(200.0 / factor, 1.0, 2e-2, 40)
         ends.append(wear_on(running, ORDERS, wave, small, bounds))
     assert [one.status for one in ends] == ["horizon", "horizon"]
     once, twice = (one.steps[-1].amplitude for one in ends)

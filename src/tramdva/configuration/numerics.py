@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from tramdva.quantities import Real, Section, Whole, quantity
 
 GREATEST_ORDER = 400
-WaveAmplitude = Annotated[Real, Field(ge=1e-8, le=1e-3)]
+WaveAmplitude = Annotated[Real, quantity("amplitude of a single order", "m", 1e-8, 1e-3)]
 
 
 def tolerance() -> Any:
