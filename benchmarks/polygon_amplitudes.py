@@ -75,11 +75,11 @@ def beside_linear(wheel: WearingWheel, orders: np.ndarray, linear: np.ndarray, s
     print(f"  alone at {1e6 * size:g} um:", _errors(found[shown], linear[shown], orders[shown]))
     wave = np.zeros(orders.size, complex)
     phase = np.random.default_rng(1).uniform(-np.pi, np.pi, TOGETHER.size)
-    wave[TOGETHER - 1] = size * np.exp(1j * phase)
+    wave[TOGETHER - 1] = size / np.sqrt(TOGETHER.size) * np.exp(1j * phase)
     # What is proportional to the waves; combinations of two change no sign with them.
     both = [revolution(wheel, orders, sign * wave).depth for sign in (1.0, -1.0)]
     some = (0.5 * (both[0] - both[1]))[TOGETHER - 1] / wave[TOGETHER - 1]
-    print("  seven at once:", _errors(some, linear[TOGETHER - 1], TOGETHER))
+    print("  seven at once, together that size:", _errors(some, linear[TOGETHER - 1], TOGETHER))
 
 
 def _errors(found: np.ndarray, linear: np.ndarray, orders: np.ndarray) -> str:
