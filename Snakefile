@@ -45,6 +45,10 @@ STAGES = {
         "what changes of the route buy",
     ),
     "polygon_growth": (["route_response"], "growth of orders over kilometres"),
+    "polygon_simulation": (
+        ["contact_geometry", "route_response"],
+        "a wheel that wears on, all orders at once",
+    ),
 }
 # Stages of many files each: per absorber, order or part of a sample (workflow/rules/jobs.smk).
 JOBS = {

@@ -318,8 +318,8 @@ def completed_once(frozen_code: Path, snakemake, tmp_path_factory) -> Path:
     shutil.copytree(frozen_code / "config", folder / "config")
     path = folder / "config/config.yaml"
     few, count = re.subn(
-        r"orders: .*",
-        f"orders: {{first: {ORDERS[0]}, last: {ORDERS[-1]}, step: 1}}",
+        r"(evolution_tendency:\n +)orders: .*",
+        rf"\1orders: {{first: {ORDERS[0]}, last: {ORDERS[-1]}, step: 1}}",
         path.read_text(encoding="utf-8"),
     )
     assert count == 1

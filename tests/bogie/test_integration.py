@@ -126,6 +126,18 @@ def test_limit_cycle_does_not_depend_on_the_step(running):
     np.testing.assert_allclose(amplitudes[0], amplitudes[1], rtol=0.01)
 
 
+def one_wave(contacts, turn, crest=0.0):
+    """A wave of an angular frequency on the wheels, whose linear response is not told."""
+    deviation = np.zeros((2, 1, 4, len(contacts.tables)))
+    deviation[0, 0] = crest
+    return {
+        "angular_frequency": np.array([turn]),
+        "deviation": deviation,
+        "local": np.zeros((2, 1, 44)),
+        "contact_force": np.zeros((2, 1, 24)),
+    }
+
+
 @pytest.mark.parametrize("frequency", [20.0, 70.0, 120.0])
 def test_frequency_response_agrees_with_a_simulation(line, running, frequency):
     """A small lateral force on the inner front rim; with absorbers, so that transients decay."""
@@ -137,7 +149,8 @@ def test_frequency_response_agrees_with_a_simulation(line, running, frequency):
     matrix = 1j * turn * np.eye(len(linear.matrix)) - linear.matrix
     expected = linear.output @ np.linalg.solve(matrix, linear.input @ force)
     excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(
-        angular_frequency=turn, force=packed(run.basis.load @ force)
+        **one_wave(damped.curve.contacts, turn),
+        force=packed(run.basis.load @ force)[None],
     )
     m = run.basis.eigenvalue.size
     # Start on the steady response, so that only the difference is a transient.
@@ -195,7 +208,9 @@ def test_radius_deviation_moves_the_wheel_up(line, running):
     run = Run(damped)
     crest = np.zeros((4, len(damped.curve.contacts.tables)))
     crest[1] = 1e-5
-    excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(amplitude=crest)
+    excitation = ride.no_excitation(run.basis, damped.curve.contacts)._replace(
+        **one_wave(damped.curve.contacts, 0.0, crest)
+    )
     z = np.zeros(2 * run.basis.eigenvalue.size)
     local, _ = run(z, 4.0, 1e-3, excitation)
     rest = damped.curve.local(damped.equilibrium.state)

@@ -93,20 +93,21 @@ def _phi(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 class Excitation(NamedTuple):
-    """Harmonic excitation at angular frequency (rad/s): cos(angular_frequency t + phase).
+    """Sum of k harmonic excitations: the real part of what turns as exp(i angular_frequency t).
 
     The state that is integrated is the deviation from the linear response to the wheels' radius
     deviations: where the vehicle is linear, the response is exact at any step.
 
-    amplitude, phase : (4, zones) radius deviation at the contacts of the wheels, m and rad
-    local : (2, 44), linear response of the local variables, real and imaginary part
-    contact_force : (2, 24), linear forces of the radius deviations themselves
-    force : (2 m,) packed modal forcing, per second, without the wheels' deviations
+    angular_frequency : (k,) rad/s
+    deviation : (2, k, 4, zones) m, radius deviation at the contacts, real and imaginary part
+    local : (2, k, 44), linear response of the local variables
+    contact_force : (2, k, 24), linear forces of the radius deviations themselves
+    force : (j, 2 m), packed modal forcing by the cosines of the first j, per second, without the
+        wheels' deviations
     """
 
-    angular_frequency: float
-    amplitude: np.ndarray
-    phase: np.ndarray
+    angular_frequency: np.ndarray
+    deviation: np.ndarray
     local: np.ndarray
     contact_force: np.ndarray
     force: np.ndarray
@@ -141,13 +142,24 @@ def _copy(source, target):
 
 
 @njit(**INNER, fastmath=FAST)
-def _locals_of(modal, excitation, z, time, local):
-    """Local variables of the contacts of a packed modal state at a time (s)."""
-    angle = excitation.angular_frequency * time
-    cosine, sine = np.cos(angle), np.sin(angle)
+def _turn_waves(excitation, time, waves):
+    """Cosine and sine (2, k) of the excitations at a time (s)."""
+    for n in range(waves.shape[1]):
+        angle = excitation.angular_frequency[n] * time
+        waves[0, n] = np.cos(angle)
+        waves[1, n] = np.sin(angle)
+
+
+@njit(**INNER, fastmath=FAST)
+def _locals_of(modal, excitation, waves, z, local):
+    """Local variables of the contacts of a packed modal state; waves: from `_turn_waves`."""
     for j in range(local.size):
-        linear = cosine * excitation.local[0, j] - sine * excitation.local[1, j]
-        local[j] = modal.local[j] + linear
+        local[j] = modal.local[j]
+    for n in range(waves.shape[1]):
+        cosine, sine = waves[0, n], waves[1, n]
+        real, imag = excitation.local[0, n], excitation.local[1, n]
+        for j in range(local.size):
+            local[j] += cosine * real[j] - sine * imag[j]
     for k in range(z.size):
         amount = z[k]
         row = modal.output[k]
@@ -156,15 +168,33 @@ def _locals_of(modal, excitation, z, time, local):
 
 
 @njit(**INNER, fastmath=FAST)
-def _add_remainder(modal, excitation, time, local, force, forcing):
-    """Add the modal forcing by contact forces beyond their linearisation."""
-    angle = excitation.angular_frequency * time
-    cosine, sine = np.cos(angle), np.sin(angle)
+def _deviations(excitation, waves, deviation, rate):
+    """Radius deviations (4, zones) in m at the contacts and their rates in m/s."""
+    for w in range(4):
+        for zone in range(deviation.shape[1]):
+            deviation[w, zone] = rate[w, zone] = 0.0
+    for n in range(waves.shape[1]):
+        cosine, sine, turn = waves[0, n], waves[1, n], excitation.angular_frequency[n]
+        for w in range(4):
+            for zone in range(deviation.shape[1]):
+                real = excitation.deviation[0, n, w, zone]
+                imag = excitation.deviation[1, n, w, zone]
+                deviation[w, zone] += cosine * real - sine * imag
+                rate[w, zone] -= turn * (sine * real + cosine * imag)
+
+
+@njit(**INNER, fastmath=FAST)
+def _add_remainder(modal, excitation, waves, local, force, forcing):
+    """Add the modal forcing by contact forces beyond their linearisation; `force` is used up."""
+    for n in range(waves.shape[1]):
+        cosine, sine = waves[0, n], waves[1, n]
+        real, imag = excitation.contact_force[0, n], excitation.contact_force[1, n]
+        for i in range(force.size):
+            force[i] -= cosine * real[i] - sine * imag[i]
     for i in range(force.size):
         wheel = i // wheel_forces.WHEEL_FORCES
         start = wheel_forces.LOCALS * wheel
-        linear = cosine * excitation.contact_force[0, i] - sine * excitation.contact_force[1, i]
-        remainder = force[i] - modal.force[i] - linear
+        remainder = force[i] - modal.force[i]
         for j in range(start, start + wheel_forces.LOCALS):
             remainder -= modal.jacobian[i, j] * (local[j] - modal.local[j])
         row = modal.forcing[i]
@@ -173,27 +203,24 @@ def _add_remainder(modal, excitation, time, local, force, forcing):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _forcing(modal, contacts, passage, excitation, z, time, share, work, forcing):
+def _forcing(modal, contacts, passage, excitation, z, time, share, work, waves, forcing):
     """Modal forcing (2 m,) beyond the linearised vehicle at a time (s), share of the passage."""
     local, force, curvatures, deviation, rate, scratch, results = work
-    _locals_of(modal, excitation, z, time, local)
-    turn = excitation.angular_frequency
-    for w in range(4):
-        for zone in range(deviation.shape[1]):
-            angle = turn * time + excitation.phase[w, zone]
-            deviation[w, zone] = excitation.amplitude[w, zone] * np.cos(angle)
-            rate[w, zone] = -turn * excitation.amplitude[w, zone] * np.sin(angle)
+    _turn_waves(excitation, time, waves)
+    _locals_of(modal, excitation, waves, z, local)
+    _deviations(excitation, waves, deviation, rate)
     for f in range(3):
         curvatures[f] = passage.curvature[0, f] + share * passage.curvature[1, f]
     wheel_forces.all_wheel_forces(
         contacts, curvatures, local, deviation, rate, scratch, results, force
     )
-    cosine = np.cos(turn * time)
     c = passage.load
     for k in range(z.size):
         forcing[k] = c[0, k] + share * (c[1, k] + share * (c[2, k] + share * c[3, k]))
-        forcing[k] += cosine * excitation.force[k]
-    _add_remainder(modal, excitation, time, local, force, forcing)
+    for n in range(excitation.force.shape[0]):
+        for k in range(z.size):
+            forcing[k] += waves[0, n] * excitation.force[n, k]
+    _add_remainder(modal, excitation, waves, local, force, forcing)
 
 
 @njit(**INNER, fastmath=FAST)
@@ -223,14 +250,14 @@ def _step(modal, contacts, passage, excitation, table, z, time, share, h, rise, 
         u_4 = WHOLE z + FIRST g_1 + 2 SECOND (g_3 - g_1)
         z   = WHOLE z + FIRST g_1 + SECOND (g_4 - g_1) + THIRD (g_1 - g_2 - g_3 + g_4)
     """
-    g, u, change = arrays
+    g, u, change, waves = arrays
     _copy(z, u)
     for stage in range(4):
         # One call in a loop: what is called in four places takes four times as long to compile.
         done = 0.5 * ((stage + 1) // 2)
         _forcing(
             modal, contacts, passage, excitation, u, time + done * h, share + done * rise, work,
-            g[stage],
+            waves, g[stage],
         )  # fmt: skip
         factor = 2.0 if stage == 2 else 1.0
         for k in range(z.size):
@@ -318,7 +345,8 @@ def _run(
     locals_out, results_out, columns, every,
 ):  # fmt: skip
     """Do what `run` says."""
-    arrays = (np.empty((4, z.size)), np.empty(z.size), np.empty(z.size))
+    waves = np.empty((2, excitation.angular_frequency.size))
+    arrays = (np.empty((4, z.size)), np.empty(z.size), np.empty(z.size), waves)
     saved = np.empty(z.size)
     total = locals_out.shape[0] * every
     evaluations, status = 0, COMPLETED
@@ -347,7 +375,8 @@ def _run(
         status = max(status, now)
         if (i + 1) % every == 0:
             k = i // every
-            _locals_of(modal, excitation, z, time + (i + 1) * interval, locals_out[k])
+            _turn_waves(excitation, time + (i + 1) * interval, waves)
+            _locals_of(modal, excitation, waves, z, locals_out[k])
             for wheel in range(results.shape[0]):
                 for zone in range(results.shape[1]):
                     for c in range(columns.size):

@@ -122,6 +122,7 @@ CONTACT_GEOMETRY = {
         "corner_start": 0.015,
         "field_half_width": 0.028,
         "lateral_position": -0.00261,
+        "inclination": 0,
     },
     "material": {"youngs_modulus": 206000000000.0, "poisson_ratio": 0.27},
     "gap_scale": 8e-06,

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tramdva.bogie import integration, wheel_forces
+from tramdva.bogie.integration import Excitation
 from tramdva.bogie.names import LOCAL
 from tramdva.bogie.rough_wheels import RoughBogie, excitation
 
@@ -90,11 +91,37 @@ def simulate_wave(
     """
     speed = contacts.places.speed
     excited = excitation(bogie, wheel_radius, order, speed, amplitude, wheels)
-    z = np.zeros(2 * bogie.eigenvalue.size)
     turn = 2.0 * np.pi * wheel_radius / speed
-    finest = settings.step_tolerance * abs(amplitude) * excited.angular_frequency
+    velocity = abs(amplitude) * float(excited.angular_frequency[0])
+    return run_steadily(contacts, bogie, excited, turn, velocity, settings)
+
+
+def run_steadily(
+    contacts: wheel_forces.Contacts,
+    bogie: RoughBogie,
+    excited: Excitation,
+    turn: float,
+    velocity: float,
+    settings: Settings,
+    start: np.ndarray | None = None,
+) -> WaveRun:
+    """Simulate waves on the wheels until they run steadily, then keep revolutions.
+
+    Parameters
+    ----------
+    contacts : wheel_forces.Contacts
+    bogie : RoughBogie
+    excited : Excitation, periodic with a revolution
+    turn : s, of a revolution
+    velocity : m/s of the waves, by which the tolerance of the steps is measured
+    settings : Settings
+    start : (2 m,) deviation from the linear response at the start of a revolution, near that of the
+        steady running if it is known; advanced to the end of the run
+    """
+    z = np.zeros(2 * bogie.eigenvalue.size) if start is None else start
+    finest = settings.step_tolerance * velocity
     one = _Revolution(contacts, bogie, excited, turn, settings.samples, finest)
-    kept, differences, before = [], [], None
+    kept, lost, differences, before = [], [], [], None
     for number in range(settings.longest_transient + settings.kept):
         local, results, status = one.run(z, number)
         if status > integration.CONTACT_LOST:
@@ -103,11 +130,12 @@ def simulate_wave(
             differences.append(_difference(local, before))
         before = local
         kept = [*kept, results][-settings.kept :]
+        lost = [*lost, status == integration.CONTACT_LOST][-settings.kept :]
         remaining = _remaining(differences)
         logger.info("revolution %d: %.1e from its limit", number + 1, remaining)
         if number + 1 > settings.kept and remaining < settings.tolerance:
             break
-    status = "contact_lost" if one.contact_lost else "periodic"
+    status = "contact_lost" if any(lost) else "periodic"
     if remaining >= settings.tolerance:
         status = "not_periodic"
     return WaveRun(
@@ -155,7 +183,7 @@ class _Revolution:
 
     def __init__(self, contacts, bogie: RoughBogie, excited, turn, samples, tolerance):
         self.contacts, self.bogie, self.excited = contacts, bogie, excited
-        self.turn, self.samples, self.contact_lost = turn, samples, False
+        self.turn, self.samples = turn, samples
         self.interval = turn / samples
         self.passage = integration.steady(bogie.eigenvalue.size, bogie.curvatures)
         self.tables = integration.step_table(bogie.eigenvalue, self.interval)
@@ -172,7 +200,6 @@ class _Revolution:
             self.interval, self.tolerance, self.level, number * self.turn, z, self.work, local,
             results, columns, 1,
         )  # fmt: skip
-        self.contact_lost |= status == integration.CONTACT_LOST
         return local, results, status
 
     def times(self, revolutions: int) -> np.ndarray:

@@ -59,12 +59,13 @@ class _Section(NamedTuple):
 
 def no_excitation(basis: ModalBasis, contacts: wheel_forces.Contacts) -> Excitation:
     """Round wheels and no force."""
-    round_wheels, modal = np.zeros((4, len(contacts.tables))), np.zeros(2 * basis.eigenvalue.size)
-    local, force = (
-        np.zeros((2, 4 * wheel_forces.LOCALS)),
-        np.zeros((2, 4 * wheel_forces.WHEEL_FORCES)),
+    return Excitation(
+        np.zeros(0),
+        np.zeros((2, 0, 4, len(contacts.tables))),
+        np.zeros((2, 0, 4 * wheel_forces.LOCALS)),
+        np.zeros((2, 0, 4 * wheel_forces.WHEEL_FORCES)),
+        np.zeros((0, 2 * basis.eigenvalue.size)),
     )
-    return Excitation(0.0, round_wheels, round_wheels, local, force, modal)
 
 
 def ride(route: Route, duration: float, interval: float, every: int, tolerance: float) -> Ride:

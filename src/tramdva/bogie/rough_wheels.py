@@ -75,19 +75,28 @@ def excitation(
     amplitude : complex, R_n in m
     wheels : names of the wheels out of round
     """
-    lead = order * contact_angles(bogie, wheel_radius, speed) + np.angle(amplitude)
-    size = abs(amplitude) * wheel_mask(wheels)[:, None] * np.ones_like(lead)
-    turn = np.array([order * speed / wheel_radius])
-    source = (size * np.exp(1j * lead))[None]
-    local = local_response(bogie, turn, source)[0]
-    force = deviation_forces(bogie, turn, source)[0]
+    lead = order * contact_angles(bogie, wheel_radius, speed)
+    source = amplitude * wheel_mask(wheels)[:, None] * np.exp(1j * lead)
+    return waves(bogie, np.array([order * speed / wheel_radius]), source[None])
+
+
+def waves(bogie: RoughBogie, angular_frequency: np.ndarray, source: np.ndarray) -> Excitation:
+    """Excitation of the time integration by waves on the wheels.
+
+    Parameters
+    ----------
+    bogie : RoughBogie
+    angular_frequency : (k,) rad/s
+    source : (k, 4, zones) complex radius deviations at the contacts in m
+    """
+    local = local_response(bogie, angular_frequency, source)
+    force = deviation_forces(bogie, angular_frequency, source)
     return Excitation(
-        float(turn[0]),
-        size,
-        lead,
+        np.asarray(angular_frequency, float),
+        np.array([source.real, source.imag]),
         np.array([local.real, local.imag]),
         np.array([force.real, force.imag]),
-        np.zeros(2 * bogie.eigenvalue.size),
+        np.zeros((0, 2 * bogie.eigenvalue.size)),
     )
 
 

@@ -62,15 +62,15 @@ def wheel_places(
 
 # Kernels are compiled for this number of zones: fewer leave tables at the end unused.
 MOST_ZONES = 3
-# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw, x).
+# Beyond the results of a contact: where it was evaluated (y, z, roll, yaw, x), radius deviation.
 PLACE = patch.RESULTS
-COLUMNS = PLACE + 5
-# A radius deviation of this size (m) is allowed for.
+COLUMNS = PLACE + 6
+# A change of the radius deviation of this size (m) is allowed for in any case.
 _DEVIATION = 1e-4
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _still_apart(result, y, z, roll, yaw, x):
+def _still_apart(result, y, z, roll, yaw, x, deviation):
     """Whether a zone that was apart cannot touch yet.
 
     The gap is a distance: it changes by no more than the wheel moves. Its slope in the yaw angle,
@@ -82,17 +82,19 @@ def _still_apart(result, y, z, roll, yaw, x):
     moved = abs(y - result[PLACE]) + abs(z - result[PLACE + 1])
     moved += 0.6 * abs(roll - result[PLACE + 2]) + 0.3 * abs(yaw - result[PLACE + 3])
     moved += 0.1 * abs(x - result[PLACE + 4])
-    return moved + _DEVIATION + result[patch.PENETRATION] < 0.0
+    grown = max(abs(deviation - result[PLACE + 5]), _DEVIATION)
+    return moved + grown + result[patch.PENETRATION] < 0.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _remember(result, y, z, roll, yaw, x):
+def _remember(result, y, z, roll, yaw, x, deviation):
     """Note where a zone was evaluated."""
     result[PLACE] = y
     result[PLACE + 1] = z
     result[PLACE + 2] = roll
     result[PLACE + 3] = yaw
     result[PLACE + 4] = x
+    result[PLACE + 5] = deviation
 
 
 @njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)
@@ -146,7 +148,7 @@ def wheel_forces(
     force[:] = 0.0
     for zone in range(results.shape[0]):
         result = results[zone]
-        if _still_apart(result, y, z, roll, yaw, local[X]):
+        if _still_apart(result, y, z, roll, yaw, local[X], deviation[zone]):
             continue
         f_x, f_y, f_z, m_x, m_y, m_z = patch.wheel_contact(
             contacts.tables[zone], contacts.law, side, position, (roll, heading), velocity,
@@ -156,7 +158,7 @@ def wheel_forces(
         if result[patch.PENETRATION] < 0.0:
             # A zone that does not touch may lie outside its table.
             result[patch.STATUS] = patch.NO_CONTACT
-        _remember(result, y, z, roll, yaw, local[X])
+        _remember(result, y, z, roll, yaw, local[X], deviation[zone])
         force[4] += axis[0] * m_x + axis[1] * m_y + axis[2] * m_z
         f_x, f_y = yawed_wheel.turned(heading, f_x, f_y)
         m_x, _ = yawed_wheel.turned(heading, m_x, m_y)

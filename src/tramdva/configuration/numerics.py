@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Self
+import itertools
+from typing import Annotated, Any, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from tramdva.quantities import Real, Section, Whole, quantity
 
 GREATEST_ORDER = 400
+WaveAmplitude = Annotated[Real, quantity("amplitude of a single order", "m", 1e-8, 1e-3)]
 
 
 def tolerance() -> Any:
@@ -218,6 +220,31 @@ class PolygonGrowthNumerics(Section):
     distances: Whole = quantity("distances from zero to the horizon", "-", 2, 1001)
 
 
+class PolygonSimulationNumerics(Section):
+    """Simulation of a wheel that wears on."""
+
+    orders: Orders
+    samples: Whole = quantity("intervals per revolution", "-", 64, 16384)
+    longest_transient: Whole = quantity("revolutions until steady running at most", "-", 2, 1000)
+    tolerance: Real = quantity("largest difference of a revolution", "-", 1e-8, 0.1)
+    step_tolerance: Real = quantity("of the integration, share of the waves' speed", "-", 1e-6, 1)
+    growth_tolerance: Real = quantity("of a step of the wear, share of an order", "-", 1e-6, 0.1)
+    most_steps: Whole = quantity("steps of the wear at most", "-", 1, 10000)
+    points: Whole = quantity("distances at which the profile is told", "-", 2, 1001)
+    described_orders: Whole = quantity(
+        "orders that grow fastest, whose response over the amplitude is computed", "-", 1, 400
+    )
+    wave_amplitudes: Annotated[tuple[WaveAmplitude, ...], Field(min_length=2, max_length=50)] = (
+        Field(description="amplitudes of single orders in m, rising")
+    )
+
+    @model_validator(mode="after")
+    def _rising(self) -> Self:
+        if any(a >= b for a, b in itertools.pairwise(self.wave_amplitudes)):
+            raise ValueError("wave_amplitudes must rise")
+        return self
+
+
 class Numerics(Section):
     """Grids, orders and tolerances."""
 
@@ -245,3 +272,4 @@ class Numerics(Section):
     route_response: RouteResponseNumerics
     route_tuning: RouteTuningNumerics
     polygon_growth: PolygonGrowthNumerics
+    polygon_simulation: PolygonSimulationNumerics

@@ -118,7 +118,8 @@ def at_speed(known: Running, running: RunningClass, speed: float) -> Running:
     return Running(own, system, near(system, start))
 
 
-def _with_absorbers(known: Running, running: RunningClass, design: BogieAbsorber) -> Running:
+def with_absorbers(known: Running, running: RunningClass, design: BogieAbsorber) -> Running:
+    """Steady running with absorbers, from that without."""
     (system,) = systems(known.line, design, (_share(running),))
     start = transferred(known.system, known.equilibrium, system)
     return known._replace(system=system, equilibrium=near(system, start))
@@ -132,7 +133,7 @@ def _node(run: Running, running: RunningClass, designs: Designs, laws: Sequence[
     bogies, status, wear = {}, {}, {}
     for name in sorted(designs, key=lambda name: designs[name] is not None):
         design = designs[name]
-        own = run if design is None else _with_absorbers(run, running, design)
+        own = run if design is None else with_absorbers(run, running, design)
         status[name] = own.equilibrium.status
         if status[name] != "converged":
             continue

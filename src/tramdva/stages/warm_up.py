@@ -106,8 +106,8 @@ def _bogie(contacts: wheel_forces.Contacts) -> None:
     passage = integration.Passage(np.zeros((4, 2)), np.zeros((2, 3)))
     zones = len(contacts.tables)
     round_wheels = integration.Excitation(
-        0.0, np.zeros((4, zones)), np.zeros((4, zones)), np.zeros((2, 44)), np.zeros((2, 24)),
-        np.zeros(2),
+        np.zeros(1), np.zeros((2, 1, 4, zones)), np.zeros((2, 1, 44)), np.zeros((2, 1, 24)),
+        np.zeros((0, 2)),
     )  # fmt: skip
     columns = np.array(integration.RECORDED)
     integration.run(

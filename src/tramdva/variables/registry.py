@@ -27,6 +27,7 @@ from tramdva.variables import (
     hopf_points,
     limit_cycles,
     polygon_growth,
+    polygon_simulation,
     preflight,
     robust_tuning,
     robustness_sample,
@@ -71,5 +72,6 @@ STAGES: dict[str, Stage] = {
         route_response,
         route_remedies,
         polygon_growth,
+        polygon_simulation,
     )
 }
