@@ -94,7 +94,7 @@ BUDGET = {
     "route_response": 43,
     "route_remedies": 52,
     "polygon_growth": 8,
-    "polygon_simulation": 53,
+    "polygon_simulation": 49,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 
