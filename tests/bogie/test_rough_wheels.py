@@ -311,7 +311,7 @@ def test_a_bogie_without_steady_running_is_not_simulated(tables, unstable, monke
 
 
 def test_waves_of_a_millimetre_lose_the_contact(stored, tables):
-    cfg = settings(amplitude=1e-4)
+    cfg = settings(amplitude=2e-4)
     cfg["numerics"]["longest_transient"] = 2
     found = bogie_simulation.compute(cfg, 55, tables, stored["none"])
     assert str(found["status"]) in {"contact_lost", "not_periodic"}
