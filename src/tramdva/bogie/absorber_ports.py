@@ -114,8 +114,7 @@ class Attachable(NamedTuple):
 
     without_absorbers : (..., f, k) complex quantities; no mass and no weight of absorbers
     place_without : (..., f, 4) complex motion of the places of the absorbers, likewise
-    ports : of these places with the weight of the absorbers on the axles, and with their mass
-        across their direction
+    ports : of these places, with the absorbers' weight on the axles and mass across their direction
     """
 
     without_absorbers: np.ndarray
