@@ -164,7 +164,12 @@ include: "workflow/rules/files.smk"
 
 rule all:
     input:
-        [files_of(stage, line) for line in LINES for stage in (*STAGES, *JOBS)],
+        [
+            files_of(stage, line)
+            for line in LINES
+            for stage in (*STAGES, *JOBS)
+            if stage not in ON_DEMAND
+        ],
         [pictures_of(figure, line) for line in LINES for figure in FIGURES],
     message:
         "all numbers, figures and tables"

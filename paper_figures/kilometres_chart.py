@@ -8,15 +8,10 @@ from matplotlib.figure import Figure
 
 from tramdva import results
 from tramdva.report import figures
+from tramdva.report.design_names import WEAR_LAWS
 from tramdva.report.script import run
 
 STYLE = Path(__file__).parent / "tramdva.mplstyle"
-LAWS = {
-    "chart": "KTH chart",
-    "smoothed": "smoothed chart",
-    "constant": "constant coefficient",
-    "energy": "frictional energy",
-}
 KM = 1000.0
 
 
@@ -51,7 +46,11 @@ def draw_absorbers(axes: Axes, growth: dict[str, np.ndarray]) -> None:
         place = np.arange(count) + (k - 0.5 * (laws.size - 1)) * height
         distance = growth["turning_distance"][k] / KM
         axes.barh(
-            place, np.nan_to_num(distance), height, color=colour, label=LAWS.get(str(law), str(law))
+            place,
+            np.nan_to_num(distance),
+            height,
+            color=colour,
+            label=WEAR_LAWS.get(str(law), str(law)),
         )
         for where, km, status in zip(place, distance, growth["turning_status"][k], strict=True):
             if not np.isfinite(km):

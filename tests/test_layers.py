@@ -90,11 +90,11 @@ BUDGET = {
     "bogie_designs": 42,
     "robustness_sample": 40,
     "robust_tuning": 39,
-    "route_tuning": 49,
-    "route_response": 43,
-    "route_remedies": 52,
+    "route_tuning": 50,
+    "route_response": 44,
+    "route_remedies": 53,
     "polygon_growth": 8,
-    "polygon_simulation": 49,
+    "polygon_simulation": 50,
 }
 LONGEST_MODULE, LONGEST_FUNCTION, LONGEST_SCRIPT = 450, 100, 10  # lines
 

@@ -10,7 +10,7 @@ from tramdva.contact import complex_step, fastsim, kalker, traction_field
 from tramdva.wear.chart import wear_coefficient
 from tramdva.wear.energy import energy_wear_rate
 from tramdva.wear.gradient import worn_area_gradient
-from tramdva.wear.laws import LABELS, LAWS, law_of, with_method
+from tramdva.wear.laws import LAWS, with_method
 from tramdva.wear.passages import AREAS, ContactHistory, passage_depth, passages
 
 TABLE, SHEAR_MODULUS, SPEED = kalker.kalker_table(0.28), 8.2e10, 4.0
@@ -174,8 +174,7 @@ def test_apart_there_is_neither_wear_nor_a_derivative():
 
 def test_one_contact_under_every_law():
     chart = chart_with()
-    assert set(LABELS) == set(LAWS)
-    assert [law_of(with_method(chart, law)) for law in LAWS] == list(LAWS)
+    assert len({with_method(chart, law).method for law in LAWS}) == len(LAWS)
     for law in LAWS:
         other = chart_with(method=law)
         assert area_of(CONTACTS[0], with_method(chart, law)) == area_of(CONTACTS[0], other)

@@ -23,6 +23,8 @@ GROUP = (
 BATCHES = [list(batch) for _, batch in itertools.groupby(ORDERS, key=lambda order: order // GROUP)]
 OTHER_ORDERS = rf"(?!({'|'.join(map(str, ORDERS))})\b)[0-9]+"
 PARTS = range(configuration.run.numerics.robustness_sample.parts)
+# Stages whose files are made only when they are asked for.
+ON_DEMAND = set(configuration.run.on_demand)
 # Files of the stages of JOBS.
 PATTERNS = {
     "bogie_linearisation": "results/{line}/bogie_linearisation/{absorber}.nc",

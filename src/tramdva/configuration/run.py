@@ -37,10 +37,19 @@ LineName = Annotated[
 ]
 
 
+SlowStage = Annotated[
+    str,
+    Field(pattern="^polygon_simulation$", description="polygon_simulation, five minutes a line"),
+]
+
+
 class Run(Section):
     """Which lines are computed, and how finely."""
 
     lines: Annotated[
         tuple[LineName, ...], Field(min_length=1, max_length=1000), AfterValidator(unique)
     ] = Field(description="names of files in config/lines, without .yaml")
+    on_demand: Annotated[tuple[SlowStage, ...], Field(max_length=1), AfterValidator(unique)] = (
+        Field(description="stages that are made only when their file is asked for")
+    )
     numerics: Numerics

@@ -1,4 +1,4 @@
-"""The designs of an absorber that have a name, the same on every page; what else is a step."""
+"""Names on every page: designs of an absorber (what has none there is a step), laws of wear."""
 
 from __future__ import annotations
 
@@ -18,6 +18,13 @@ STEPS = {
     "abscissa_damping": "Den Hartog, damping of largest decay",
     "spectral_abscissa": "largest decay",
     "h_infinity": "lowest peak (H∞)",
+}
+
+WEAR_LAWS = {
+    "chart": "KTH chart",
+    "smoothed": "smoothed chart",
+    "constant": "constant coefficient",
+    "energy": "frictional work",
 }
 
 

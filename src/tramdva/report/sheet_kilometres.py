@@ -9,17 +9,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tramdva.report.design_names import design_name
+from tramdva.report.design_names import WEAR_LAWS, design_name
 from tramdva.report.sheet_numbers import DASH, number, percent
 
 Values = Mapping[str, np.ndarray]  # variables of a result file, SI units
-# Laws of wear for readers.
-LAWS = {
-    "chart": "KTH chart",
-    "smoothed": "smoothed chart",
-    "constant": "constant coefficient",
-    "energy": "frictional energy",
-}
 MEASURES = {
     "slower": "1 km/h slower in {section}",
     "lubricated": "lubricated flanges in {section}",
@@ -124,7 +117,7 @@ def _of_laws(growth: Values, none: int) -> list[str]:
     if bool(growth["laws_agree"]):
         return [LAWS_AGREE.format(absorber=_with_article(named[0]), **ends)]
     words = "; ".join(
-        f"{LAWS.get(str(law), str(law))}: {design_name(name)}"
+        f"{WEAR_LAWS.get(str(law), str(law))}: {design_name(name)}"
         for law, name in zip(growth["wear_law"], named, strict=True)
     )
     return [LAWS_DISAGREE.format(named=words, **ends)]
@@ -155,7 +148,7 @@ def _of_measures(remedies: Values) -> list[str]:
 def kilometre_rows(growth: Values) -> list[list[str]]:
     """Rows of the table: distance between turnings by absorber, a column for each law of wear."""
     rows = [
-        ["absorber", *(LAWS.get(str(law), str(law)) for law in growth["wear_law"])],
+        ["absorber", *(WEAR_LAWS.get(str(law), str(law)) for law in growth["wear_law"])],
     ]
     for k, name in enumerate(growth["absorber"]):
         cells = (_distance(growth, law, k) for law in range(growth["wear_law"].size))

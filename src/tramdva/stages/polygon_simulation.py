@@ -31,7 +31,7 @@ from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
 from tramdva.stages.route_sections import Lap, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.polygon_simulation import ORDER_KINDS, VARIABLES
-from tramdva.wear.chart import METHODS
+from tramdva.wear.laws import with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -198,7 +198,7 @@ def _wheel(
     if why := hindrance(bogie, converged=True):
         return Wheel(None, unknown, why)
     at = case.places[place.wheel]
-    chart = chart_of(cfg)._replace(method=METHODS[cfg["route"]["wear_law"]])
+    chart = with_method(chart_of(cfg), cfg["route"]["wear_law"])
     share = _zone_share(bogie, at, flange_ratio * running.flange_wear_share)
     contacts, grid = run.system.contacts, wear_grid(cfg)
     wear = wear_sensitivity(bogie, contacts.law, Wearing(chart, grid, (WHEELS[at],)))

@@ -21,7 +21,7 @@ from tramdva.stages.route_designs import designs_of
 from tramdva.stages.route_sections import Lap, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_remedies import VARIABLES
-from tramdva.wear.chart import METHODS
+from tramdva.wear.laws import with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -64,7 +64,7 @@ def compute(
 
 
 def _law(cfg: Mapping[str, Any], name: str) -> Wearing:
-    return Wearing(chart_of(cfg)._replace(method=METHODS[name]), wear_grid(cfg), WHEELS)
+    return Wearing(with_method(chart_of(cfg), name), wear_grid(cfg), WHEELS)
 
 
 def _remedies(

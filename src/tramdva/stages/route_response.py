@@ -19,7 +19,7 @@ from tramdva.stages.route_designs import designs_of
 from tramdva.stages.route_sections import Lap, case_name, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.route_response import VARIABLES
-from tramdva.wear.chart import METHODS
+from tramdva.wear.laws import LAWS, with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -90,10 +90,7 @@ def compute(
 def laws_of(cfg: Mapping[str, Any]) -> dict[str, Wearing]:
     """Laws of wear by name, for all wheels."""
     chart, grid = chart_of(cfg), wear_grid(cfg)
-    return {
-        name: Wearing(chart._replace(method=number), grid, WHEELS)
-        for name, number in METHODS.items()
-    }
+    return {name: Wearing(with_method(chart, name), grid, WHEELS) for name in LAWS}
 
 
 def _cases(line: BogieLine, lap: Lap) -> dict[str, np.ndarray]:

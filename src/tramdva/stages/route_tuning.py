@@ -26,7 +26,7 @@ from tramdva.stages.route_sections import Lap, lap_of
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.arrays import without_numbers
 from tramdva.variables.route_tuning import VARIABLES
-from tramdva.wear.chart import METHODS
+from tramdva.wear.laws import with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -116,7 +116,7 @@ def compute(
 def _known(cfg, contact_geometry, file_of) -> _Known:
     """Classes at their mean speeds, without absorbers, with the wear of the law that is told."""
     line, lap, route = quiet_bogie_line(cfg, contact_geometry), lap_of(cfg, file_of), cfg["route"]
-    chart = chart_of(cfg)._replace(method=METHODS[route["wear_law"]])
+    chart = with_method(chart_of(cfg), route["wear_law"])
     law = Wearing(chart, wear_grid(cfg), WHEELS)
     wanted = cfg["numerics"]["orders"]
     orders = np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])

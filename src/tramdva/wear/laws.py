@@ -4,14 +4,6 @@ from tramdva.wear.chart import METHODS, WearChart
 
 LAWS = tuple(METHODS)
 
-# What figures and tables call them.
-LABELS = {
-    "chart": "KTH chart",
-    "smoothed": "KTH chart, smooth steps",
-    "constant": "one coefficient (Archard)",
-    "energy": "frictional work (T-gamma)",
-}
-
 
 def with_method(chart: WearChart, law: str) -> WearChart:
     """The same parameters under another law.
@@ -30,8 +22,3 @@ def with_method(chart: WearChart, law: str) -> WearChart:
     if law not in METHODS:
         raise ValueError(f"law of wear '{law}' is unknown; allowed: {', '.join(LAWS)}")
     return chart._replace(method=METHODS[law])
-
-
-def law_of(chart: WearChart) -> str:
-    """Name of the law of a set of parameters."""
-    return LAWS[chart.method]
