@@ -156,7 +156,11 @@ def _root(bare: Seen, inertia: float, c_T: float, d_T: float, start: complex) ->
         if not np.isfinite(gain).all():
             return complex(np.nan, np.nan)
         matrix, rate = _condition(bare, inertia, c_T, d_T, s, gain)
-        step = 1.0 / (np.trace(np.linalg.solve(matrix, rate)) + gain.sum())
+        try:
+            change = np.trace(np.linalg.solve(matrix, rate))
+        except np.linalg.LinAlgError:  # the determinant is zero to the last digit: a root
+            return s
+        step = 1.0 / (change + gain.sum())
         s -= step
         if abs(step) < TOLERANCE * max(1.0, 1e-3 * abs(s)):
             return s
