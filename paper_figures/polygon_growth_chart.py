@@ -33,7 +33,7 @@ def draw(growth: dict[str, np.ndarray]) -> Figure:
         for axes in (left, right):
             figures.nothing(axes, why)
         return figure
-    wheel = first_wheel(growth, law, none)
+    wheel = int(growth["first_wheel"][law, none])
     draw_levels(left, growth, (law, none, wheel))
     draw_growth(right, growth, law, wheel)
     figures.legend_below(figure, right.get_legend_handles_labels()[0], 5)
@@ -46,12 +46,6 @@ def no_answer(hindrance: str) -> str:
     """Say where there is no steady answer to waves."""
     status, _, where = hindrance.partition(": ")
     return f"{figures.status_words([status], '')}\non {where}"
-
-
-def first_wheel(growth: dict[str, np.ndarray], law: int, absorber: int) -> int:
-    """Wheel with the fastest growing order."""
-    fastest = growth["fastest_growth"][law, absorber]
-    return int(np.argmax(np.where(np.isfinite(fastest), fastest, -np.inf)))
 
 
 def draw_levels(axes: Axes, growth: dict[str, np.ndarray], place: tuple[int, int, int]) -> None:

@@ -50,23 +50,21 @@ def draw(found: dict[str, np.ndarray]) -> Figure:
 
 
 def draw_remedies(axes: Axes, found: dict[str, np.ndarray]) -> None:
-    """Draw the change of the wheels' life by every remedy, the best first."""
+    """Draw the change of the wheels' life by every remedy, as in the file the best first."""
     if not found["remedy"].size:
         figures.nothing(axes, "a section has no steady answer")
         return
     life = 100.0 * (found["remedy_wheel_life"] / float(found["bare_wheel_life"]) - 1.0)
-    ranked = np.argsort(-np.where(np.isfinite(life), life, -np.inf), kind="stable")
-    place = np.arange(ranked.size)
-    shown = np.nan_to_num(life[ranked])
+    place = np.arange(life.size)
+    shown = np.nan_to_num(life)
     axes.barh(place, shown, 0.7, color=np.where(shown > 0.0, "C2", "C1"))
-    for where, k in zip(place, ranked, strict=True):
-        if not np.isfinite(life[k]):
-            axes.text(0.0, where, " no steady answer", va="center", fontsize="small")
+    for where in place[~np.isfinite(life)]:
+        axes.text(0.0, where, " no steady answer", va="center", fontsize="small")
     names = [
         WORDS[str(kind)] + (f", {figures.verbatim(str(section))}" if section else "")
         for kind, section in zip(found["remedy"], found["remedy_section"], strict=True)
     ]
-    axes.set_yticks(place, [names[k] for k in ranked], fontsize="small")
+    axes.set_yticks(place, names, fontsize="small")
     axes.invert_yaxis()
     axes.axvline(0.0, color="black", linewidth=0.6)
     axes.set_xlabel("life of the wheels without absorbers (%)")

@@ -29,12 +29,11 @@ def draw(growth: dict[str, np.ndarray]) -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
     law = list(growth["wear_law"]).index(str(growth["shown_wear_law"]))
     none = list(growth["absorber"]).index("none")
-    fastest = growth["fastest_growth"][law, none]
-    if not np.isfinite(fastest).all():
+    wheel = int(growth["first_wheel"][law, none])
+    if wheel < 0:
         for axes in (left, right):
             figures.nothing(axes, "a section has no steady answer")
         return figure
-    wheel = int(np.argmax(fastest))
     order = growth["fastest_order"][law, none, wheel]
     row = int(np.flatnonzero(growth["order"] == order)[0])
     share = growth["section_share"][law, none, wheel, row]

@@ -66,7 +66,8 @@ def test_larger_radii_have_smaller_peaks_at_the_same_frequency(read) -> None:
 def test_best_absorber_of_the_map_is_better_than_the_line_s(read, tendency) -> None:
     maps = read("tendency_maps")
     assert (maps["map_factor"] > 0.0).all()
-    np.testing.assert_array_equal(maps["map_worst_factor"], maps["map_factor"].max(axis=0))
+    # On any wheel over any wheel, as on the sheet: no more than the worse of the wheels' own.
+    assert (maps["map_worst_factor"] <= maps["map_factor"].max(axis=0) * (1.0 + 1e-9)).all()
     for wheel in maps["map_factor"]:
         assert wheel.min() < 0.7
 

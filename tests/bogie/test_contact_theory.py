@@ -102,5 +102,5 @@ def test_without_an_equilibrium_there_is_no_band_but_a_reason():
         **{name: np.array(value) for name, value in band._asdict().items()},
     }
     drawn = texts(script("growth_band_chart").draw(values, 0.7))
-    assert drawn.count("a contact leaves the profiles") == 2
+    assert drawn.count("a wheel leaves its profile or table") == 2
     assert "none up to" not in drawn

@@ -22,6 +22,7 @@ PLACED = {
     ("fig02_stability_map", "argmax"): "a mark stands where its boundary ends",
     ("fig03_bifurcation_diagram", "argmin"): "curves and special points are joined to neighbours",
     ("preflight_chart", "interp"): "contacts are marked on the profile that is drawn",
+    ("route_chart", "argsort"): "sections with large shares come first",
     ("sheet_verdicts", "argmin"): "the speed of the maps that is nearest to the line's, and told",
 }
 

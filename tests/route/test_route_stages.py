@@ -54,9 +54,7 @@ def test_a_tram_that_reverses_wears_both_axles_alike(growth):
 
 def test_levels_start_at_the_turned_wheel_and_rise_as_the_growth(growth):
     level, start = growth["level"], growth["initial_level"]
-    np.testing.assert_allclose(
-        level[..., 0], np.broadcast_to(start[:, None], level.shape[-2:])[None, None, None, :, 0]
-    )
+    np.testing.assert_allclose(level[..., 0], np.broadcast_to(start, level[..., 0].shape))
     slope = (level[..., 1] - level[..., 0]) / growth["distance"][1] * 1000.0
     np.testing.assert_allclose(slope, 20.0 / np.log(10.0) * growth["growth_per_1000_km"], atol=1e-6)
 
@@ -64,4 +62,5 @@ def test_levels_start_at_the_turned_wheel_and_rise_as_the_growth(growth):
 def test_the_wheel_that_is_turned_has_the_height_of_the_limit(growth):
     height = np.ptp(growth["turned_profile"], axis=-1).max(axis=-1)
     reached = growth["turning_status"] == "reached"
-    np.testing.assert_allclose(height[reached], float(growth["limit"]), rtol=1e-3)
+    # At 1024 angles a crest of 68 waves may be missed by half a step: 1 - cos(pi/15).
+    np.testing.assert_allclose(height[reached], float(growth["limit"]), rtol=0.022)

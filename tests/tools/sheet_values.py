@@ -139,7 +139,7 @@ def growth(status: str = "reached") -> dict[str, np.ndarray]:
         "turning_distance": km if known else np.full((2, 2), np.nan),
         "turning_status": np.full((2, 2), status, dtype="U20"),
         "hindrance": np.array(["" if known else "self_excited: 25 m left", ""]),
-        "fastest_growth": np.full((2, 2, 4), 1.2),
+        "first_wheel": np.zeros((2, 2)),
         "fastest_order": np.full((2, 2, 4), 57.0),
         "fastest_section": np.full((2, 2, 4), "station square", dtype="U20"),
         "limit": np.array(3e-4),

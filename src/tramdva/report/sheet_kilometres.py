@@ -64,8 +64,7 @@ def kilometres(growth: Values, remedies: Values) -> list[str]:
     """
     law, none = _shown(growth), list(map(str, growth["absorber"])).index("none")
     status = str(growth["turning_status"][law, none])
-    fastest = growth["fastest_growth"][law, none]
-    wheel = int(np.argmax(np.where(np.isfinite(fastest), fastest, -np.inf)))
+    wheel = max(int(growth["first_wheel"][law, none]), 0)
     order = growth["fastest_order"][law, none, wheel]
     lines = [
         ROUTE[status].format(
@@ -132,9 +131,8 @@ def _of_measures(remedies: Values) -> list[str]:
     if str(remedies["bare_status"]) != "computed":
         return []
     gain = remedies["remedy_wheel_life"] / float(remedies["bare_wheel_life"]) - 1.0
-    ranked = np.argsort(-np.where(np.isfinite(gain), gain, -np.inf), kind="stable")
     words = []
-    for k in ranked:
+    for k in range(gain.size):  # the best come first in the file
         if not gain[k] > 0.005 or len(words) == 3:
             break
         measure = MEASURES[str(remedies["remedy"][k])]

@@ -105,6 +105,9 @@ def _sections(given: Mapping[str, np.ndarray], rate: np.ndarray) -> dict[str, np
     wear = _wear(given)
     return {
         "section_share": share,
+        "first_wheel": np.where(
+            known.all(axis=-1), np.where(known, fastest, -np.inf).argmax(axis=-1), -1
+        ).astype(float),
         "fastest_order": np.where(known, given["order"][top], np.nan),
         "fastest_growth": np.where(known, fastest, np.nan),
         "fastest_section": names,

@@ -97,14 +97,16 @@ def _remedies(
     lives = [_life(cfg, km, 1.0) for km in distances]
     if steady:
         lives[-1] = _life(cfg, earlier, EARLIER)
-    distance = np.array(distances, float)
+    distance, life = np.array(distances, float), np.array(lives, float)
+    ranked = np.argsort(-np.where(np.isfinite(life), life, -np.inf), kind="stable")
+    kinds = np.array([*(one.kind for one in tried), *(["turned_earlier"] * steady)], str)
     return {
-        "remedy": np.array([*(one.kind for one in tried), *(["turned_earlier"] * steady)], str),
-        "remedy_section": np.array(names, str),
-        "remedy_distance": distance,
-        "remedy_gain": distance / bare_distance,
-        "remedy_wheel_life": np.array(lives, float),
-        "remedy_status": np.where(np.isfinite(distance), "computed", "no_steady_answer"),
+        "remedy": kinds[ranked],
+        "remedy_section": np.array(names, str)[ranked],
+        "remedy_distance": distance[ranked],
+        "remedy_gain": distance[ranked] / bare_distance,
+        "remedy_wheel_life": life[ranked],
+        "remedy_status": np.where(np.isfinite(distance[ranked]), "computed", "no_steady_answer"),
         "bare_distance": np.float64(bare_distance),
         "bare_wheel_life": np.float64(_life(cfg, bare_distance, 1.0)),
         "bare_status": np.array("computed" if steady else "no_steady_answer"),

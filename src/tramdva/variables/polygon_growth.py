@@ -26,6 +26,9 @@ VARIABLES = Stage(
         "section_share": real(
             f"{_BY_ORDER} section", "1", "share of the section in the growth of the order"
         ),
+        "first_wheel": real(
+            "wear_law absorber", "1", "number of the wheel with the fastest order, -1: no answer"
+        ),
         "fastest_order": real(_BY_WHEEL, "1", "order that grows most"),
         "fastest_growth": real(_BY_WHEEL, "1", "its growth in 1000 km, e-folds"),
         "fastest_section": text(_BY_WHEEL, "section with the largest share in it"),

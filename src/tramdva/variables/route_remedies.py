@@ -14,7 +14,7 @@ VARIABLES = Stage(
     "What changes of the route and the wheels buy, without absorbers",
     {
         "wear_law": text("", "law of wear"),
-        "remedy": text("remedy", "what is done"),
+        "remedy": text("remedy", "what is done, the longest life of the wheels first"),
         "remedy_section": text("remedy", "section in which it is done, empty: everywhere"),
         "remedy_distance": real("remedy", "km", "distance between turnings, energy of the waves"),
         "remedy_gain": real("remedy", "1", "this distance over that of the route as it is"),
