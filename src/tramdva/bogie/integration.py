@@ -102,8 +102,7 @@ class Excitation(NamedTuple):
     deviation : (2, k, 4, zones) m, radius deviation at the contacts, real and imaginary part
     local : (2, k, 44), linear response of the local variables
     contact_force : (2, k, 24), linear forces of the radius deviations themselves
-    force : (j, 2 m), packed modal forcing by the cosines of the first j, per second, without the
-        wheels' deviations
+    force : (j, 2 m), packed modal forcing by the cosines of the first j, without deviations
     """
 
     angular_frequency: np.ndarray

@@ -41,8 +41,7 @@ class ClassPorts(NamedTuple):
     receptance : (wheels, f, 4) complex, eigenvalues of the places' receptance
     output : (wheels, f, 4) complex, wear by the absorbers' forces in these (`PortModes`)
     revolutions : (wheels, speeds) in 1000 km of a wheel that is always there
-    motions : free motion at the friction of forced excitation and of operation (where it has
-        an equilibrium)
+    motions : free motion when forced, and in operation where there is an equilibrium
     """
 
     turn: np.ndarray

@@ -1,11 +1,11 @@
 """Saturation of wheel orders: the wear response of single orders over their amplitude.
 
-A wave of one order answers with H_n(|R_n|): a describing function. With it every order changes by
-itself,
+A wave of one order answers with ``H_n(|R_n|)``: a describing function. With it every order changes
+by itself::
 
     dR_n / ds = - N H_n(|R_n|) R_n,
 
-linear between the amplitudes of a table over ln |R_n|: so each stretch is integrated exactly. It
+linear between the amplitudes of a table over ``ln |R_n|``: so each stretch is integrated exactly. It
 knows no waves of other orders; where several are large, only the simulation of all tells.
 """
 
