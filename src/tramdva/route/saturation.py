@@ -5,8 +5,8 @@ by itself::
 
     dR_n / ds = - N H_n(|R_n|) R_n,
 
-linear between the amplitudes of a table over ``ln |R_n|``: so each stretch is integrated exactly. It
-knows no waves of other orders; where several are large, only the simulation of all tells.
+linear between the amplitudes of a table over ``ln |R_n|``: so each stretch is integrated exactly.
+It knows no waves of other orders; where several are large, only the simulation of all tells.
 """
 
 from typing import NamedTuple
