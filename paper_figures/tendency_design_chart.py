@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from tramdva import results
 from tramdva.report import figures
@@ -33,18 +34,32 @@ def draw(maps: dict[str, np.ndarray], band: dict[str, float], motion: str = "rot
     if len(charts) > 1:
         compromise = maps["compromise_c_T"], maps["compromise_d_T"], maps["compromise_factor"]
         charts.append(("all wheels together", maps["map_worst_factor"], compromise))
-    figure = figures.canvas(figures.DOUBLE_COLUMN, 72)
+    figure = figures.canvas(figures.DOUBLE_COLUMN, 78)
     panels = figure.subplots(1, len(charts), squeeze=False, sharey=True)[0]
     unit, stiffness_label, damping_label = figures.ABSORBER_AXES[motion]
     for axes, name, (words, factor, low) in zip(panels, "abcde", charts, strict=False):
         image = draw_map(axes, maps, factor, low, unit)
         figures.letter(axes, name)
-        axes.set_title(words, fontsize="medium")
+        least = f"\nleast: {low[2]:.2f}" if np.isfinite(low[2]) else ""
+        axes.set_title(f"{words}{least}", fontsize="medium")
         axes.set_xlabel(stiffness_label)
     panels[0].set_ylabel(damping_label)
     label = f"peak in {band['min']:.0f} to {band['max']:.0f} Hz:\nwith over without absorbers"
     figure.colorbar(image, ax=list(panels), label=label)
+    figures.legend_below(figure, legend(maps), 3)
     return figure
+
+
+def legend(maps: dict[str, np.ndarray]) -> list[Line2D]:
+    """Entries of the legend: the absorbers of the line and the best of each map."""
+    square = {"linestyle": "none", "marker": "s", "markerfacecolor": "white"}
+    entries = [
+        figures.key(figures.design_name(str(name)), markeredgecolor="black", **square)
+        for name, stiffness in zip(maps["absorber"], maps["c_T"], strict=True)
+        if np.isfinite(stiffness)
+    ]
+    least = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "0.4"}
+    return [*entries, figures.key("least of the map", linestyle="none", markersize=4, **least)]
 
 
 def reason(maps: dict[str, np.ndarray]) -> str:
@@ -68,19 +83,14 @@ def draw_map(
         stiffness, maps["map_d_T"], factor, LEVELS, cmap=figures.SPREAD, extend="both"
     )
     axes.contour(stiffness, maps["map_d_T"], factor, LEVELS, colors="white", linewidths=0.3)
-    for row, name in enumerate(map(str, maps["absorber"])):
-        if not np.isfinite(maps["c_T"][row]):
+    for place in zip(maps["c_T"] / unit, maps["d_T"], strict=True):
+        if not np.isfinite(place).all():
             continue
-        place = maps["c_T"][row] / unit, maps["d_T"][row]
         axes.plot(*place, "s", markerfacecolor="white", markeredgecolor="black")
-        words = figures.design_name(name)
-        axes.annotate(words, place, (5, 4), textcoords="offset points", color="white")
     c_T, d_T, smallest = best
     if np.isfinite(smallest):
         place = c_T / unit, d_T
         axes.plot(*place, "o", color="white", markersize=3)
-        words = f"least of the map: {smallest:.2f}"
-        axes.annotate(words, place, (5, 2), textcoords="offset points", color="white")
     return image
 
 

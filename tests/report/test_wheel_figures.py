@@ -165,8 +165,8 @@ def test_chart_over_speed_tells_where_no_equilibrium_was_found(style):
 def test_design_chart_marks_the_best_absorber(style):
     figure = script("tendency_design_chart").draw(tendency_maps(), BAND)
     said = drawn_texts(figure)
-    assert "least of the map: 0.20" in said
-    assert "least of the map: 0.30" in said
+    assert "least: 0.20" in said
+    assert "least: 0.30" in said
     assert "line's absorber" in said
     assert "peak in 45 to 65 Hz" in said
 
