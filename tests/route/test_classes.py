@@ -5,9 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
+from tramdva.route.alignment import plan_of_route
 from tramdva.route.classes import OWN_WHEELS, cases_of, classes_of, lap_length, places_of_wheels
 from tramdva.route.parameters import RouteSection
-from tramdva.route.plan import plan
 
 
 def section(turn="left", radius=25.0, length=40.0, **more) -> RouteSection:
@@ -81,9 +81,9 @@ def test_length_of_a_lap_counts_passages_and_both_ways():
 
 
 def test_plan_of_a_circle_closes_and_a_clothoid_turns_by_half_its_length_over_the_radius():
-    x, y, _ = plan([section("left", 30.0, length=2.0 * np.pi * 30.0)])
+    x, y, _ = plan_of_route([section("left", 30.0, length=2.0 * np.pi * 30.0)])
     np.testing.assert_allclose([x[-1], y[-1]], 0.0, atol=1e-9)
     np.testing.assert_allclose(np.ptp(y), 60.0, rtol=1e-2)
-    x, y, _ = plan([section("right", 100.0, length=1e-9 + 0.1, transition_m=40.0)])
+    x, y, _ = plan_of_route([section("right", 100.0, length=1e-9 + 0.1, transition_m=40.0)])
     heading = np.arctan2(y[-1] - y[-2], x[-1] - x[-2])
     assert heading == pytest.approx(-(40.0 + 0.1) / 100.0, abs=0.01)

@@ -6,12 +6,17 @@ Curvature is positive to the left; along an element it is constant or, in a tran
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from tramdva.route.parameters import RouteSection
+
 STRAIGHTEST = 1e5  # m, radius from which on a curve is straight track
 SHORTEST = 0.1  # m, section of a route
+PLAN_STEP = 5.0  # m, between points of the plan of a route
+SIGN = {"left": 1.0, "right": -1.0, "straight": 0.0}
 
 
 class Stretch(NamedTuple):
@@ -99,6 +104,38 @@ def plan(alignment: Alignment, step: float = 1.0) -> tuple[np.ndarray, np.ndarra
         heading += 0.5 * (start + end) * length
         here, gone = track[-1], gone + length
     return np.array(places), np.array(points)
+
+
+def plan_of_route(
+    sections: Sequence[RouteSection],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Plan of the way there of a route, which begins at the origin along x.
+
+    Parameters
+    ----------
+    sections : in their order; transitions are clothoids outside of the length of a curve
+
+    Returns
+    -------
+    x, y : (k,) m; section : (k,) number of the section of each point
+    """
+    parts = [_stretches(section) for section in sections]
+    stretches = tuple(one for part in parts for one in part)
+    place, points = plan(Alignment("", stretches, np.zeros((0, 2)), ()), PLAN_STEP)
+    ends = np.cumsum([sum(one.length for one in part) for part in parts])
+    # A point belongs to the section that ends there or behind it.
+    section = np.searchsorted(ends * (1.0 + 1e-12), place)
+    return points[:, 0], points[:, 1], np.minimum(section, len(parts) - 1)
+
+
+def _stretches(section: RouteSection) -> list[Stretch]:
+    """Elements of a section: the curve or straight piece between its transitions."""
+    curvature = SIGN[section.turn] / (section.radius_m or np.inf)
+    body = Stretch(section.length_m, curvature, curvature)
+    if curvature == 0.0 or section.transition_m == 0.0:
+        return [body]
+    ramp = section.transition_m
+    return [Stretch(ramp, 0.0, curvature), body, Stretch(ramp, curvature, 0.0)]
 
 
 def sections_of(alignment: Alignment) -> list[TrackSection]:

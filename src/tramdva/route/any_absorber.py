@@ -27,7 +27,7 @@ from tramdva.bogie.parameters import BogieAbsorber
 from tramdva.bogie.rough_wheels import RoughBogie
 from tramdva.bogie.vehicle import absorber_carriers
 from tramdva.evolution.tendency import WearSensitivity
-from tramdva.route.own_response import own_response, patch_filter, wheel_modes
+from tramdva.route.own_response import of_modes, patch_filter, wheel_modes
 
 SLOWEST = 5.0  # Hz, of vibrations
 MODES_UP_TO = 400.0  # Hz; faster modes do not change the sign of a growth rate below 200 Hz
@@ -153,8 +153,8 @@ def _receptances(
     turn: np.ndarray,
 ) -> Receptances:
     """Wear of a wheel and motion of places, by waves on this wheel and by forces there."""
-    own = own_response(bogie, [wear], wheel, spin)
     parts = wheel_modes(bogie, [wear], wheel, spin)
+    own = of_modes(bogie.eigenvalue, parts)
     moved = places[:, : system.size] @ basis.to_state[: system.size]  # place, mode
     pushed = 0.5 * (basis.load @ places.T)  # mode, place
     s = 1j * turn[:, None]

@@ -146,18 +146,22 @@ def own_response(
     wheel : place in `names.WHEELS`
     spin : rad/s, from `spins`
     """
-    parts = wheel_modes(bogie, wears, wheel, spin)
-    zones, m = len(parts.lead), bogie.eigenvalue.size
+    return of_modes(bogie.eigenvalue, wheel_modes(bogie, wears, wheel, spin))
+
+
+def of_modes(eigenvalue: np.ndarray, parts: WheelModes) -> OwnResponse:
+    """Response of a wheel whose modes are known; eigenvalue (m,) in 1/s."""
+    zones, laws = len(parts.lead), len(parts.direct)
     pairs = [(z, other) for z in range(zones) for other in range(zones)]
-    modal = np.zeros((len(pairs), 3, m, len(wears)), complex)
-    direct = np.zeros((len(pairs), len(wears), 3))
+    modal = np.zeros((len(pairs), 3, eigenvalue.size, laws), complex)
+    direct = np.zeros((len(pairs), laws, 3))
     for place, (z, other) in enumerate(pairs):
         (a, b), (c, d) = parts.heard[:, z], parts.push[other, :, :, None]
         modal[place] = a * c, a * d + b * c, b * d
         if z == other:
             direct[place] = parts.direct[:, z]
     return OwnResponse(
-        bogie.eigenvalue,
+        eigenvalue,
         modal,
         direct,
         np.array([parts.lead[other] - parts.lead[z] for z, other in pairs]),

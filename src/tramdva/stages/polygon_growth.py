@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tramdva.evolution.out_of_roundness import level
+from tramdva.route.alignment import plan_of_route
 from tramdva.route.growth import (
     ANGLES,
     DISTANCE_STATUS,
@@ -16,7 +17,6 @@ from tramdva.route.growth import (
     wheel_life,
 )
 from tramdva.route.parameters import InitialSpectrum
-from tramdva.route.plan import plan
 from tramdva.stages.route_sections import lap_of
 from tramdva.variables.polygon_growth import VARIABLES
 
@@ -50,7 +50,7 @@ def compute(
     waves = np.array([grown(initial, one, distance) for one in growth.reshape(-1, orders.size)])
     waves = waves.reshape(*growth.shape[:-1], *waves.shape[1:])  # ..., distance, order
     limits = _distances(cfg, given, growth, initial)
-    x, y, number = plan(lap_of(cfg, file_of).sections)
+    x, y, number = plan_of_route(lap_of(cfg, file_of).sections)
     return {
         **{
             name: given[name]

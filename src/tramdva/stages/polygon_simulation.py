@@ -28,7 +28,7 @@ from tramdva.route.saturation import describing, saturating, saturation_amplitud
 from tramdva.route.scaling import Case
 from tramdva.route.wearing_on import Bounds, WornOn, own_rates, step_at, wear_on
 from tramdva.stages.bogie_sections import bogie_line, quiet_bogie_line
-from tramdva.stages.route_sections import Lap, lap_of
+from tramdva.stages.route_sections import Lap, lap_of, route_orders
 from tramdva.stages.wear_sections import chart_of, wear_grid
 from tramdva.variables.polygon_simulation import ORDER_KINDS, VARIABLES
 from tramdva.wear.laws import with_method
@@ -105,7 +105,7 @@ def compute(
         **{name: np.array([row[name] for row in rows]) for name in rows[0]},
         "wear_law": np.array(cfg["route"]["wear_law"]),
         "wear_scale": np.float64(given["wear_scale"][law]),
-        "order": _orders(cfg).astype(float),
+        "order": route_orders(cfg).astype(float),
         "limit": np.float64(_limit(cfg)),
         "angle": _angles(),
         "wave_amplitude": np.array(cfg["numerics"]["wave_amplitudes"]),
@@ -133,11 +133,6 @@ def fastest_place(given: Mapping[str, np.ndarray], law: int) -> Place:
     wheel, order = np.unravel_index(growth.argmax(), growth.shape)
     case, point = np.unravel_index(rate[wheel, order].argmax(), rate.shape[2:])
     return Place(int(case), int(wheel), float(given["speed"][case, point]))
-
-
-def _orders(cfg: Mapping[str, Any]) -> np.ndarray:
-    wanted = cfg["numerics"]["orders"]
-    return np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
 
 
 def _limit(cfg: Mapping[str, Any]) -> float:
@@ -188,7 +183,7 @@ def _wheel(
     flange_ratio: float,
 ) -> Wheel:
     """The wheel in its condition, and what it answers to small waves."""
-    case, orders = lap.cases()[place.case], _orders(cfg)
+    case, orders = lap.cases()[place.case], route_orders(cfg)
     running = lap.classes[case.running]
     unknown = np.full(orders.size, np.nan + 0j)
     run = _steady(line, running, place.speed, design)
@@ -237,7 +232,7 @@ def _row(cfg: Mapping[str, Any], wheel: Wheel, place: Place, scale: float) -> di
     """Variables of an absorber."""
     if wheel.running is None or not np.isfinite(scale):
         return _nothing(cfg, wheel)
-    orders, running = _orders(cfg), wheel.running
+    orders, running = route_orders(cfg), wheel.running
     initial = initial_amplitudes(
         orders.astype(float), InitialSpectrum.model_validate(cfg["route"]["initial"])
     )
@@ -309,7 +304,7 @@ def _described(
     cfg: Mapping[str, Any], wheel: Wheel, initial: np.ndarray, distance: np.ndarray, per_km: float
 ) -> dict[str, Any]:
     """Describing function of the orders that grow fastest, and their levels by it."""
-    orders, sizes = _orders(cfg), np.array(cfg["numerics"]["wave_amplitudes"])
+    orders, sizes = route_orders(cfg), np.array(cfg["numerics"]["wave_amplitudes"])
     place = np.sort(np.argsort(wheel.small.real)[: cfg["numerics"]["described_orders"]])
     table = describing(wheel.running, orders[place], sizes)
     small = wheel.small[place]
@@ -328,7 +323,7 @@ def _described(
 
 def _nothing(cfg: Mapping[str, Any], wheel: Wheel) -> dict[str, Any]:
     """Variables of an absorber with which the wheel does not run steadily."""
-    numerics, orders = cfg["numerics"], _orders(cfg).size
+    numerics, orders = cfg["numerics"], route_orders(cfg).size
     points, sizes = numerics["points"], len(numerics["wave_amplitudes"])
     described = min(numerics["described_orders"], orders)
     status = "no_equilibrium" if wheel.status == "converged" else wheel.status

@@ -18,10 +18,9 @@ from tramdva.route.scatter import in_phase_growth, own_growth
 from tramdva.route.search import energy_distance
 from tramdva.stages.bogie_sections import quiet_bogie_line
 from tramdva.stages.route_designs import designs_of
-from tramdva.stages.route_sections import Lap, lap_of
-from tramdva.stages.wear_sections import chart_of, wear_grid
+from tramdva.stages.route_sections import Lap, lap_of, route_orders
+from tramdva.stages.route_wear import wearing_of_all
 from tramdva.variables.route_remedies import VARIABLES
-from tramdva.wear.laws import with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -52,19 +51,14 @@ def compute(
     Variables of ``route_remedies``.
     """
     line, lap = quiet_bogie_line(cfg, contact_geometry), lap_of(cfg, file_of)
-    wanted = cfg["numerics"]["orders"]
-    orders = np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
-    law = _law(cfg, cfg["route"]["wear_law"])
+    orders = route_orders(cfg)
+    law = wearing_of_all(cfg, cfg["route"]["wear_law"])
     designs = designs_of(line, robust_tuning, route_tuning)
     return {
         "wear_law": np.array(cfg["route"]["wear_law"]),
         **_remedies(cfg, line, lap, law, orders),
         **_scatter(cfg, line, designs, orders),
     }
-
-
-def _law(cfg: Mapping[str, Any], name: str) -> Wearing:
-    return Wearing(with_method(chart_of(cfg), name), wear_grid(cfg), WHEELS)
 
 
 def _remedies(
@@ -165,7 +159,7 @@ def _scatter(
         )
         for scatter in SCATTERS
     ]
-    law = _law(cfg, cfg["wear"]["method"])
+    law = wearing_of_all(cfg, cfg["wear"]["method"])
     runs = run_classes(line, classes, designs, [law], cfg["numerics"]["most_speed_points"])
     found = np.array(
         [

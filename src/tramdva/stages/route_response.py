@@ -5,10 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from tramdva.bogie.names import WHEELS
 from tramdva.bogie.parameters import BogieAbsorber
 from tramdva.bogie.tram import BogieLine
-from tramdva.evolution.tendency import Wearing
 from tramdva.route.classes import OWN_WHEELS
 from tramdva.route.parameters import MeasuredWear
 from tramdva.route.response import SURFACES, own_wear, run_classes
@@ -16,10 +14,10 @@ from tramdva.route.scaling import depths, revolutions, scales
 from tramdva.route.speeds import halved
 from tramdva.stages.bogie_sections import quiet_bogie_line
 from tramdva.stages.route_designs import designs_of
-from tramdva.stages.route_sections import Lap, case_name, lap_of
-from tramdva.stages.wear_sections import chart_of, wear_grid
+from tramdva.stages.route_sections import Lap, case_name, lap_of, route_orders
+from tramdva.stages.route_wear import wearing_of_all
 from tramdva.variables.route_response import VARIABLES
-from tramdva.wear.laws import LAWS, with_method
+from tramdva.wear.laws import LAWS
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -45,10 +43,12 @@ def compute(
     Variables of ``route_response``.
     """
     line, lap = quiet_bogie_line(cfg, contact_geometry), lap_of(cfg, file_of)
-    designs, laws = designs_of(line, robust_tuning, route_tuning), laws_of(cfg)
+    designs, laws = (
+        designs_of(line, robust_tuning, route_tuning),
+        {name: wearing_of_all(cfg, name) for name in LAWS},
+    )
     numerics = cfg["numerics"]
-    wanted = numerics["orders"]
-    orders = np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
+    orders = route_orders(cfg)
     runs = run_classes(
         line, lap.classes, designs, list(laws.values()), numerics["most_speed_points"]
     )
@@ -85,12 +85,6 @@ def compute(
         "wear_scale": scale,
         "flange_wear_ratio": ratio,
     }
-
-
-def laws_of(cfg: Mapping[str, Any]) -> dict[str, Wearing]:
-    """Laws of wear by name, for all wheels."""
-    chart, grid = chart_of(cfg), wear_grid(cfg)
-    return {name: Wearing(with_method(chart, name), grid, WHEELS) for name in LAWS}
 
 
 def _cases(line: BogieLine, lap: Lap) -> dict[str, np.ndarray]:

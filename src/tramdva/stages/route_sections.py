@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tramdva.route.classes import (
     Case,
     Passage,
@@ -54,6 +56,12 @@ def lap_of(cfg: Mapping[str, Any], file_of: Callable[[str], Any] = str) -> Lap:
         sections = tuple(RouteSection.model_validate(one) for one in route["sections"])
     classes, passages = classes_of(sections, route["way"], route["ends"])
     return Lap(sections, classes, passages, lap_length(passages))
+
+
+def route_orders(cfg: Mapping[str, Any]) -> np.ndarray:
+    """Orders (o,) of the wheels, whole numbers, as ``numerics.orders`` says."""
+    wanted = cfg["numerics"]["orders"]
+    return np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
 
 
 def case_name(case: Case, running: RunningClass) -> str:

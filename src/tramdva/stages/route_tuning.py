@@ -5,9 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tramdva.bogie.names import WHEELS
 from tramdva.bogie.parameters import BogieAbsorber
-from tramdva.evolution.tendency import Wearing
 from tramdva.route.any_absorber import class_ports
 from tramdva.route.growth import initial_amplitudes
 from tramdva.route.parameters import InitialSpectrum, Material, MeasuredWear
@@ -22,11 +20,10 @@ from tramdva.route.search import (
 )
 from tramdva.route.speeds import SpeedPoints, intervals, speed_points
 from tramdva.stages.bogie_sections import quiet_bogie_line
-from tramdva.stages.route_sections import Lap, lap_of
-from tramdva.stages.wear_sections import chart_of, wear_grid
+from tramdva.stages.route_sections import Lap, lap_of, route_orders
+from tramdva.stages.route_wear import wearing_of_all
 from tramdva.variables.arrays import without_numbers
 from tramdva.variables.route_tuning import VARIABLES
-from tramdva.wear.laws import with_method
 
 __all__ = ["VARIABLES", "compute"]
 
@@ -116,10 +113,8 @@ def compute(
 def _known(cfg, contact_geometry, file_of) -> _Known:
     """Classes at their mean speeds, without absorbers, with the wear of the law that is told."""
     line, lap, route = quiet_bogie_line(cfg, contact_geometry), lap_of(cfg, file_of), cfg["route"]
-    chart = with_method(chart_of(cfg), route["wear_law"])
-    law = Wearing(chart, wear_grid(cfg), WHEELS)
-    wanted = cfg["numerics"]["orders"]
-    orders = np.arange(wanted["first"], wanted["last"] + 1, wanted["step"])
+    law = wearing_of_all(cfg, route["wear_law"])
+    orders = route_orders(cfg)
     middles = [at_mean_speed(line, one, {"none": None}, [law]) for one in lap.classes]
     most = cfg["numerics"]["most_speed_points"]
     steps = max(intervals(one.running.scatter, one.width, most) for one in middles)
